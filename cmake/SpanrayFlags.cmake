@@ -1,0 +1,19 @@
+# The flags of the numerical contract (docs/decisions/0001-lanes.md), private to our own targets.
+function(spanray_flags target)
+  target_compile_options(${target} PRIVATE
+    -ffp-contract=off -fno-fast-math -Wall -Wextra -Wshadow -Wpedantic -Wconversion -Wno-sign-conversion -Werror)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # -Wpsabi speaks of AVX-512 arguments between targets; all such functions are inlined.
+    target_compile_options(${target} PRIVATE -Wno-psabi)
+  else()
+    target_compile_options(${target} PRIVATE -Wno-pass-failed)
+  endif()
+  # One 1-lane fallback on every compiler (Highway would choose by compiler), SSE4, AVX2 and AVX-512 in every build.
+  target_compile_definitions(${target} PRIVATE
+    HWY_COMPILE_ALL_ATTAINABLE HWY_BROKEN_EMU128=1 HWY_BASELINE_TARGETS=HWY_SCALAR
+    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+  if(SPANRAY_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SPANRAY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${SPANRAY_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,75 @@
+// Everything that the stages of one frame share: read-only while they run.
+#pragma once
+#include <cstdint>
+
+#include "core/parallel.h"
+#include "frame/rays.h"
+#include "frame/tiles.h"
+#include "scene/scene_data.h"
+#include "simd/isa.h"
+
+namespace spanray {
+
+// What the frame needs, each with its reason (render/plan.cpp fills it; `spanray info` prints it). A stage whose flag is off
+// allocates nothing and runs nothing.
+struct PlanFlags {
+  bool bvh = false, translucent_bvh = false;
+  bool shadow_rays = false, bounces = false, translucents = false, masks = false;
+  bool textures = false, bump = false, lit_vertices = false, emission = false, ambient = false, specular = false;
+};
+
+// What a material means to visibility in this frame: Settings::transparency may override the material's own wish.
+enum MaterialFlags : uint32_t {
+  kMaterialMasked = 1,       // accept(hit) decides: alpha mask (map_d) or screen-door
+  kMaterialTranslucent = 2,  // blended by alpha after the opaque surfaces; not an occluder of shadow rays
+};
+
+// Answers accept(hit) for primitives whose material is kMaterialMasked: alpha masks (map_d) and screen-door. Both engines ask it
+// through Frame, since stages do not know each other; shade/accept_kernel.cpp implements it. Not called for other primitives.
+struct Frame;
+// For primary rays of pixels in one row: x0 .. x0 + count - 1 (count <= 32) at row y against one primitive. Bit i: pixel
+// x0 + i accepts. Only bits set in `candidates` need be computed.
+using AcceptRowFn = uint32_t (*)(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates);
+// For one ray of a batch against one primitive that it hits.
+using AcceptRayFn = bool (*)(const Frame&, const RayBatch&, int ray, uint32_t primitive);
+
+inline uint32_t flags_of(const Frame& frame, uint32_t primitive);
+
+struct Frame {
+  const SceneData* scene = nullptr;
+  Settings settings;        // resolved: no kAuto, no kScene left but per-material decisions
+  PlanFlags plan;
+  PrimaryRays primary;
+  TileGrid grid;
+  Isa isa = Isa::kScalar;   // concrete
+  Parallel* parallel = nullptr;
+  const uint32_t* material_flags = nullptr;  // MaterialFlags by material
+  AcceptRowFn accept_row = nullptr;
+  AcceptRayFn accept_ray = nullptr;
+};
+
+inline uint32_t flags_of(const Frame& frame, uint32_t primitive) {
+  return frame.material_flags[material_of(frame.scene->triangles[primitive])];
+}
+
+// Which side of a triangle a point sees: > 0 the front (counter-clockwise in the file's order), < 0 the back, 0 edge-on.
+// One formula, in double, for both engines; for a hit its sign is that of N.V (DESIGN 1).
+inline double facing(const SceneData& scene, const Triangle& t, const glm::dvec3& from) {
+  glm::dvec3 v[3];
+  for (int i = 0; i < 3; ++i) {
+    const float* p = scene.vertices[t.vertex[i]].position;
+    v[i] = {p[0], p[1], p[2]};
+  }
+  const double side = dot3(cross3(v[1] - v[0], v[2] - v[0]), from - v[0]);
+  return (t.bits & kTriangleFlipped) ? -side : side;
+}
+
+// Integers only: sums do not depend on the order of tasks.
+struct FrameCounts {
+  uint64_t triangles_in = 0, triangles_invalid = 0, triangles_clipped = 0, triangles_culled = 0, triangles_drawn = 0;
+  uint64_t pixels_covered = 0, fragments_translucent = 0;
+  uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
+  uint64_t vertices_lit = 0;
+};
+
+}  // namespace spanray

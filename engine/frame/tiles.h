@@ -1,0 +1,77 @@
+// Tiles, bins and what a tile sees.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned.h"
+
+namespace spanray {
+
+inline constexpr int kTileSize = 64;  // pixels; depth and id of a tile (32 KB) fit the first-level cache
+inline constexpr int kTilePixels = kTileSize * kTileSize;
+
+struct TileGrid {
+  int width = 0, height = 0, columns = 0, rows = 0;
+  TileGrid() = default;
+  TileGrid(int w, int h) : width(w), height(h), columns((w + kTileSize - 1) / kTileSize), rows((h + kTileSize - 1) / kTileSize) {}
+  int count() const { return columns * rows; }
+  int x0(int tile) const { return tile % columns * kTileSize; }
+  int y0(int tile) const { return tile / columns * kTileSize; }
+  int x1(int tile) const { return std::min(x0(tile) + kTileSize, width); }
+  int y1(int tile) const { return std::min(y0(tile) + kTileSize, height); }
+};
+
+// Vertices after the transform stage, one entry a scene vertex. Positions in homogeneous pixels (frame/rays.h), in double.
+struct ScreenVertices {
+  AlignedBuffer<double> x, y, w;          // X, Y, W; pixel = X / W, Y / W
+  AlignedBuffer<int32_t> x_24_8, y_24_8;  // snapped pixel position; only valid where outcode == 0
+  AlignedBuffer<uint16_t> outcode;        // kOut* bits
+};
+enum Outcode : uint16_t {
+  kOutNear = 1,                                                       // w < near
+  kOutLeft = 2, kOutRight = 4, kOutTop = 8, kOutBottom = 16,          // outside the guard band: must be clipped
+  kOffLeft = 32, kOffRight = 64, kOffTop = 128, kOffBottom = 256,     // outside the picture (only culls)
+  kOutInvalid = 512,                                                  // not finite: its triangles are dropped and counted
+  kOutClipMask = kOutNear | kOutLeft | kOutRight | kOutTop | kOutBottom | kOutInvalid,
+};
+inline constexpr int32_t kGuardBandPixels = 1 << 15;  // |pixel coordinate| <= this after clipping
+inline constexpr int kSubpixelBits = 8;
+
+// A triangle (or a piece of a clipped one) ready for scan conversion: one cache line.
+// Depth plane: depth(x, y) = depth0 + x * depth_dx + y * depth_dy at pixel position (x, y), in double, from the *unsnapped original*
+// triangle, so all pieces of a clipped triangle share it bit for bit; then clamped to [depth_min, depth_max].
+struct alignas(64) ScreenTriangle {
+  int32_t x_24_8[3], y_24_8[3];  // any winding: coverage does not depend on it
+  uint32_t primitive;            // index into SceneData::triangles
+  uint32_t flags;                // MaterialFlags of the primitive
+  float depth_min, depth_max;
+  double depth0, depth_dx, depth_dy;
+};
+static_assert(sizeof(ScreenTriangle) == 64);
+
+// What one task of the front end made from a range of primitives, in order of primitives. Reading the chunks in order, a
+// tile sees its triangles in order of their ids: ties in depth go to the lowest without any comparison of ids.
+struct BinChunk {
+  AlignedBuffer<ScreenTriangle> triangles;
+  std::vector<uint32_t> opaque_start, translucent_start;  // per tile, prefix sums, size tiles + 1
+  AlignedBuffer<uint32_t> opaque, translucent;            // indices into triangles, by tile
+};
+struct TileBins {
+  TileGrid grid;
+  std::vector<BinChunk> chunks;
+};
+
+// The visibility buffer of one tile: row-major kTileSize x kTileSize, also where the picture ends inside the tile.
+struct TileHits {
+  alignas(64) uint32_t primitive[kTilePixels];  // kNoPrimitive: background
+  alignas(64) float depth[kTilePixels];         // 0: background
+};
+
+// Translucent candidates of a tile or a ray batch, unordered: shading orders them. `ray` as in HitBatch, `pixel` packed.
+struct FragmentList {
+  AlignedBuffer<uint32_t> pixel, ray, primitive;
+  void clear() { pixel.clear(), ray.clear(), primitive.clear(); }
+};
+
+}  // namespace spanray

@@ -1,0 +1,47 @@
+// A loaded scene: immutable, shared, checked.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spanray/camera.h"
+#include "spanray/result.h"
+#include "spanray/settings.h"
+
+namespace spanray {
+
+struct SceneData;  // engine/scene/scene_data.h
+
+class Scene {
+ public:
+  Scene() = default;
+  explicit Scene(std::shared_ptr<const SceneData> data) : data_(std::move(data)) {}
+  bool valid() const { return data_ != nullptr; }
+  uint64_t hash() const;  // of all that can reach a pixel, taken after loading
+  size_t triangle_count() const;
+  size_t material_count() const;
+  size_t light_count() const;
+  const std::vector<Camera>& cameras() const;           // never empty
+  const std::vector<std::string>& camera_names() const; // same size
+  const Settings& settings() const;                     // what the scene file asks for
+  const SceneData& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const SceneData> data_;
+};
+
+struct LoadOptions {
+  double crease_angle_degrees = 60;  // faces meeting at more than this keep a hard edge where the file has no normals
+  bool allow_outside = false;        // textures may lie outside the scene's folder
+};
+
+struct LoadedScene {
+  Scene scene;
+  std::vector<std::string> messages;  // warnings with file and line, and what was chosen for lack of better (default light, ...)
+};
+
+// .obj or .toml, by extension. Errors name file, line and cause.
+Result<LoadedScene> load_scene(const std::string& path, const LoadOptions& options = {});
+
+}  // namespace spanray

@@ -1,0 +1,34 @@
+// What to compute and how: plain values, each a knob of speed against error.
+#pragma once
+#include <cstdint>
+
+namespace spanray {
+
+enum class Isa { kAuto, kScalar, kSse4, kAvx2, kAvx512 };
+enum class Shading { kFlat, kGouraud, kPhong };
+enum class Shadows { kNone, kRay };
+enum class Reflections { kNone, kRay };
+enum class Visibility { kRaster, kRay };
+enum class Filter { kNearest, kBilinear, kTrilinear };
+// How surfaces with 0 < opacity < 1 look: ignored (opaque), blended by alpha, or as a screen-door pattern. kScene: as each
+// material says (alpha unless the scene file asks for screen-door).
+enum class Transparency { kScene, kNone, kAlpha, kScreenDoor };
+enum class Culling { kNone, kBack };
+
+struct Settings {
+  int width = 1280, height = 720;  // pixels, 1 to 16384
+  Shading shading = Shading::kPhong;
+  Shadows shadows = Shadows::kRay;
+  Reflections reflections = Reflections::kRay;
+  int max_bounces = 4;  // mirror bounces after the primary hit, 0 to 64
+  Visibility visibility = Visibility::kRaster;
+  Filter filter = Filter::kTrilinear;
+  Transparency transparency = Transparency::kScene;
+  Culling culling = Culling::kNone;
+  bool textures = true;
+  bool bump = true;
+  int threads = 0;  // 0: one per processor
+  Isa isa = Isa::kAuto;
+};
+
+}  // namespace spanray

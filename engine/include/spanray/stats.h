@@ -1,0 +1,34 @@
+// What a frame cost and did.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spanray {
+
+inline constexpr int kNumericContract = 1;
+
+// Milliseconds. Stages inside tiles are thread time divided by the number of threads; frame is wall time without file output.
+struct StageTimes {
+  double transform = 0, clip = 0, bin = 0, raster = 0, shade = 0, shadow_rays = 0, bounce_rays = 0, composite = 0,
+         encode = 0, frame = 0, bvh_build = 0;
+};
+
+struct FrameStats {
+  StageTimes ms;
+  std::vector<std::pair<std::string, uint64_t>> counts;  // name, value
+  uint64_t memory_bytes = 0;                             // of the renderer's own buffers, scene not included
+  std::string isa;
+  int threads = 0;
+  std::vector<std::string> warnings;                     // counted warnings, e.g. dropped triangles
+};
+
+// One line of the plan: a stage, whether this scene and these settings need it, and why.
+struct PlanLine {
+  std::string stage;
+  bool needed = false;
+  std::string reason;
+};
+
+}  // namespace spanray

@@ -1,0 +1,23 @@
+// Visibility engine 1: the stages from world vertices to what each pixel of a tile sees. Called by render/ in this order.
+#pragma once
+#include "frame/frame.h"
+
+namespace spanray {
+
+// Vertices -> homogeneous pixels, snapped positions, outcodes. Parallel.
+void transform_vertices(const Frame& frame, ScreenVertices& out);
+
+// Triangles -> screen triangles, in chunks, in order of primitives: drops invalid ones, culls (outside, back faces, no area after
+// snapping), clips in double with canonical edges, sets up the depth plane. Parallel. Fills chunk.triangles and counts.
+void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts);
+
+// Screen triangles -> lists by tile. Parallel. Conservative: a listed triangle need not cover a pixel of the tile.
+void bin_triangles(const Frame& frame, TileBins& bins);
+
+// Opaque and masked triangles of one tile -> nearest primitive and depth of each pixel. Called from a task.
+void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out);
+
+// Appends every fragment of translucent triangles that is not behind the opaque depth (>= passes).
+void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out);
+
+}  // namespace spanray

@@ -1,0 +1,40 @@
+// Visibility engine 2: a bounding volume hierarchy over triangles, and batches of rays against it.
+#pragma once
+#include <cstddef>
+#include <memory>
+
+#include "frame/frame.h"
+
+namespace spanray {
+
+class Bvh {
+ public:
+  Bvh();
+  Bvh(Bvh&&) noexcept;
+  Bvh& operator=(Bvh&&) noexcept;
+  ~Bvh();
+  struct Data;  // ray/bvh_data.h
+  const Data& data() const { return *data_; }
+  size_t memory_bytes() const;
+  size_t primitive_count() const;
+
+ private:
+  friend Bvh build_bvh(const SceneData&, const uint32_t*, uint32_t, uint32_t, Parallel&);
+  std::unique_ptr<Data> data_;
+};
+
+// Builds over the triangles whose material flags satisfy (flags & mask) == value; material_flags as in Frame. The tree is the
+// same for any number of threads, and hits do not depend on it. An empty set is allowed.
+Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel);
+
+// For each ray the primitive with the least t in [0, t_max], ties to the lowest id, kNoPrimitive if none. Masked materials ask
+// frame.accept_ray; Settings::culling applies. A zero or NaN direction misses. out: rays.count entries.
+void trace_closest(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out);
+
+// Bit i of out (32 a word) is set if ray i hits anything with t in [0, t_max]. Both faces occlude.
+void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out);
+
+// Appends every hit with t in [0, t_max] (unordered, each primitive once a ray).
+void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, FragmentList& out);
+
+}  // namespace spanray

@@ -1,0 +1,35 @@
+// The only maker of SceneData: takes loose triangles and tables, checks every number, establishes the invariants.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scene/scene_data.h"
+#include "spanray/result.h"
+
+namespace spanray {
+
+// A triangle as a file gives it: corners in counter-clockwise order seen from the front.
+struct SoupTriangle {
+  Vertex corner[3];
+  uint32_t material = 0;
+};
+
+struct BuildReport {
+  uint64_t dropped_not_finite = 0;  // triangles with a NaN or infinite position
+  uint64_t repaired_normals = 0;    // corners whose normal was zero or not finite: the face normal took its place
+  uint64_t repaired_uvs = 0;        // corners whose uv was not finite: set to 0
+  uint64_t zero_area = 0;           // kept (they cover no pixel), counted
+};
+
+// Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material) corners
+// into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds. Material
+// indices must be below scene.materials.size(). Errors: too many vertices for 32-bit gathers.
+Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene);
+
+// Computes scene.hash from all that can reach a pixel. Call last.
+void hash_scene(SceneData& scene);
+
+// A scene from bare triangles with per-corner data, one default material, no light, a default camera: for tests.
+SceneData make_test_scene(const std::vector<SoupTriangle>& soup, std::vector<Material> materials = {});
+
+}  // namespace spanray

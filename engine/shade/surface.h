@@ -1,0 +1,42 @@
+// Surfaces: everything that shading wants to know about a batch of hits, as arrays over lanes.
+#pragma once
+#include <cstdint>
+
+#include "frame/frame.h"
+
+namespace spanray {
+
+// Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
+struct SurfaceBatch {
+  int count = 0;
+  float* position[3];          // on the original triangle, weights clamped to it
+  float* position_error;       // bound on the error of each coordinate of position, world units
+  float* geometric_normal[3];  // unit, toward the ray's origin
+  float* normal[3];            // shading normal: interpolated, bumped; unit, in the hemisphere of geometric_normal
+  float* view[3];              // unit, toward the ray's origin
+  float* t;                    // in units of the ray's direction; for primary rays the view depth
+  float* weight[3];            // barycentric, sum 1 within rounding, each in [0, 1]
+  float* dpdx[3];              // differential of position by pixel x and y: the footprint
+  float* dpdy[3];
+  float *ambient[3], *diffuse[3], *specular[3], *emission[3], *mirror[3];  // material times textures
+  float *shininess, *opacity;
+  uint32_t *pixel, *ray, *primitive, *material;
+  uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
+
+  SurfaceBatch();
+  void resize(int n);
+  size_t memory_bytes() const { return storage_.bytes(); }
+
+ private:
+  AlignedBuffer<float> storage_;
+};
+
+// Recomputes the surface of each hit from its ray and the original triangle: setup in double (frame/rays.h), the same function
+// for both engines, so equal ids give equal bits (DESIGN 1). Interpolation by settings.shading; textures by footprint; bump.
+void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out);
+
+// accept(hit) for both engines: see frame/frame.h.
+uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates);
+bool accept_ray(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive);
+
+}  // namespace spanray

@@ -1,0 +1,270 @@
+// Lane value types over Google Highway: F32, I32, F64, Mask. kLanes lanes each: 16 (AVX-512), 8 (AVX2), 4 (SSE4), 1 (scalar).
+// Included once per target, inside a *_kernel.cpp (see simd/kernel_template.md). Every operation gives the same bits on
+// every target: min, max, rounding, conversion and fused multiply-add are our own (docs/decisions/0001-lanes.md).
+#if defined(SPANRAY_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_LANES_INL_H_
+#undef SPANRAY_LANES_INL_H_
+#else
+#define SPANRAY_LANES_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<DF>;
+#if HWY_TARGET == HWY_SCALAR
+using DD = hn::Rebind<double, DF>;  // one lane either way
+using DHF = DF;
+#else
+using DD = hn::Repartition<double, DF>;  // half as many lanes: F64 holds two vectors
+using DHF = hn::Half<DF>;
+#endif
+using DDI = hn::RebindToSigned<DD>;
+using DHI = hn::RebindToSigned<DHF>;
+inline constexpr int kLanes = static_cast<int>(HWY_LANES(float));
+inline constexpr int kHalves = HWY_TARGET == HWY_SCALAR ? 1 : 2;
+
+struct Mask { hn::Mask<DF> m; };
+struct F32 {
+  hn::Vec<DF> v;
+  static HWY_INLINE F32 load(const float* p) { return {hn::LoadU(DF(), p)}; }
+  static HWY_INLINE F32 zero() { return {hn::Zero(DF())}; }
+  HWY_INLINE void store(float* p) const { hn::StoreU(v, DF(), p); }
+};
+struct I32 {
+  hn::Vec<DI> v;
+  static HWY_INLINE I32 load(const int32_t* p) { return {hn::LoadU(DI(), p)}; }
+  static HWY_INLINE I32 load(const uint32_t* p) { return load(reinterpret_cast<const int32_t*>(p)); }
+  static HWY_INLINE I32 zero() { return {hn::Zero(DI())}; }
+  HWY_INLINE void store(int32_t* p) const { hn::StoreU(v, DI(), p); }
+  HWY_INLINE void store(uint32_t* p) const { store(reinterpret_cast<int32_t*>(p)); }
+};
+// kLanes doubles, as kHalves vectors; lane i of F32 corresponds to lane i of F64.
+struct F64 {
+  hn::Vec<DD> v[kHalves];
+  static HWY_INLINE F64 load(const double* p) {
+    F64 r;
+    for (int h = 0; h < kHalves; ++h) r.v[h] = hn::LoadU(DD(), p + h * (kLanes / kHalves));
+    return r;
+  }
+  HWY_INLINE void store(double* p) const {
+    for (int h = 0; h < kHalves; ++h) hn::StoreU(v[h], DD(), p + h * (kLanes / kHalves));
+  }
+};
+
+// ---- construction --------------------------------------------------------------------------------------------------
+HWY_INLINE F32 f32(float x) { return {hn::Set(DF(), x)}; }
+HWY_INLINE I32 i32(int32_t x) { return {hn::Set(DI(), x)}; }
+HWY_INLINE I32 i32(uint32_t x) { return {hn::Set(DI(), static_cast<int32_t>(x))}; }
+HWY_INLINE F64 f64(double x) {
+  F64 r;
+  for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Set(DD(), x);
+  return r;
+}
+HWY_INLINE I32 lane_iota(int32_t first = 0) { return {hn::Iota(DI(), first)}; }
+
+// ---- bits ----------------------------------------------------------------------------------------------------------
+HWY_INLINE I32 bits_of(F32 a) { return {hn::BitCast(DI(), a.v)}; }
+HWY_INLINE F32 float_from_bits(I32 a) { return {hn::BitCast(DF(), a.v)}; }
+
+// ---- float arithmetic: exactly one IEEE operation each ---------------------------------------------------------------
+HWY_INLINE F32 operator+(F32 a, F32 b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE F32 operator-(F32 a, F32 b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE F32 operator*(F32 a, F32 b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE F32 operator/(F32 a, F32 b) { return {hn::Div(a.v, b.v)}; }
+HWY_INLINE F32 operator-(F32 a) { return {hn::Xor(a.v, hn::Set(DF(), -0.0f))}; }
+HWY_INLINE F32& operator+=(F32& a, F32 b) { return a = a + b; }
+HWY_INLINE F32 abs_(F32 a) { return {hn::And(a.v, hn::BitCast(DF(), hn::Set(DI(), 0x7fffffff)))}; }
+HWY_INLINE F32 sqrt_(F32 a) { return {hn::Sqrt(a.v)}; }
+// Magnitude of a, sign of b.
+HWY_INLINE F32 copysign_(F32 a, F32 b) {
+  const auto sign = hn::Set(DF(), -0.0f);
+  return {hn::Or(hn::AndNot(sign, a.v), hn::And(sign, b.v))};
+}
+
+HWY_INLINE Mask operator<(F32 a, F32 b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator<=(F32 a, F32 b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Mask operator>(F32 a, F32 b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator>=(F32 a, F32 b) { return {hn::Ge(a.v, b.v)}; }
+HWY_INLINE Mask operator==(F32 a, F32 b) { return {hn::Eq(a.v, b.v)}; }
+
+// ---- masks ---------------------------------------------------------------------------------------------------------
+HWY_INLINE Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+HWY_INLINE Mask and_not(Mask a, Mask b) { return {hn::AndNot(a.m, b.m)}; }  // !a & b
+HWY_INLINE bool any(Mask a) { return !hn::AllFalse(DF(), a.m); }
+HWY_INLINE bool all(Mask a) { return hn::AllTrue(DF(), a.m); }
+HWY_INLINE int count(Mask a) { return static_cast<int>(hn::CountTrue(DF(), a.m)); }
+// Bit i is lane i.
+HWY_INLINE uint32_t to_bits(Mask a) {
+  alignas(16) uint8_t bytes[16] = {};
+  hn::StoreMaskBits(DF(), a.m, bytes);
+  uint32_t bits;
+  std::memcpy(&bits, bytes, 4);
+  return bits & ((1ull << kLanes) - 1);
+}
+HWY_INLINE Mask mask_from_bits(uint32_t bits) {
+  alignas(16) uint8_t bytes[16] = {};
+  std::memcpy(bytes, &bits, 4);
+  return {hn::LoadMaskBits(DF(), bytes)};
+}
+HWY_INLINE Mask first_lanes(int n) { return {hn::FirstN(DF(), static_cast<size_t>(n))}; }
+
+HWY_INLINE F32 select(Mask m, F32 yes, F32 no) { return {hn::IfThenElse(m.m, yes.v, no.v)}; }
+HWY_INLINE I32 select(Mask m, I32 yes, I32 no) { return {hn::IfThenElse(hn::RebindMask(DI(), m.m), yes.v, no.v)}; }
+
+// b if a is NaN, and b if both are zeros: the x86 rule, written out so that every target has it.
+HWY_INLINE F32 min_(F32 a, F32 b) { return select(a < b, a, b); }
+HWY_INLINE F32 max_(F32 a, F32 b) { return select(a > b, a, b); }
+HWY_INLINE F32 clamp_(F32 x, F32 low, F32 high) { return min_(max_(x, low), high); }  // NaN -> low
+
+// ---- integers (two's complement, wrapping) -----------------------------------------------------------------------------
+HWY_INLINE I32 operator+(I32 a, I32 b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE I32 operator-(I32 a, I32 b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE I32 operator*(I32 a, I32 b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE I32 operator&(I32 a, I32 b) { return {hn::And(a.v, b.v)}; }
+HWY_INLINE I32 operator|(I32 a, I32 b) { return {hn::Or(a.v, b.v)}; }
+HWY_INLINE I32 operator^(I32 a, I32 b) { return {hn::Xor(a.v, b.v)}; }
+template <int kBits> HWY_INLINE I32 shift_left(I32 a) { return {hn::ShiftLeft<kBits>(a.v)}; }
+template <int kBits> HWY_INLINE I32 shift_right(I32 a) { return {hn::ShiftRight<kBits>(a.v)}; }  // arithmetic
+template <int kBits> HWY_INLINE I32 shift_right_logical(I32 a) {
+  const hn::RebindToUnsigned<DI> du;
+  return {hn::BitCast(DI(), hn::ShiftRight<kBits>(hn::BitCast(du, a.v)))};
+}
+HWY_INLINE Mask operator==(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Eq(a.v, b.v))}; }
+HWY_INLINE Mask operator!=(I32 a, I32 b) { return !(a == b); }
+HWY_INLINE Mask operator<(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Lt(a.v, b.v))}; }
+HWY_INLINE Mask operator>(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Gt(a.v, b.v))}; }
+HWY_INLINE I32 min_(I32 a, I32 b) { return select(a < b, a, b); }
+HWY_INLINE I32 max_(I32 a, I32 b) { return select(a > b, a, b); }
+
+// ---- conversion ------------------------------------------------------------------------------------------------------
+HWY_INLINE F32 to_f32(I32 a) { return {hn::ConvertTo(DF(), a.v)}; }  // round to nearest even
+// Truncates toward zero; saturates to +-2147483520; NaN -> -2147483520.
+HWY_INLINE I32 to_i32(F32 a) {
+  return {hn::ConvertTo(DI(), clamp_(a, f32(-2147483520.0f), f32(2147483520.0f)).v)};
+}
+// Largest integer <= a, for |a| < 2^31; larger magnitudes return a itself; NaN -> NaN; the sign of a zero is +.
+HWY_INLINE F32 floor_(F32 a) {
+  const F32 t = to_f32(to_i32(a));
+  const F32 r = select(t > a, t - f32(1.0f), t);
+  return select(abs_(a) < f32(2147483520.0f), r, a);
+}
+// Nearest integer, halves up (floor(a + 1/2) computed without double rounding), as I32; saturates as to_i32.
+HWY_INLINE I32 round_i32(F32 a) {
+  const F32 f = floor_(a);
+  return to_i32(select(a - f >= f32(0.5f), f + f32(1.0f), f));
+}
+
+// ---- memory ------------------------------------------------------------------------------------------------------------
+// base[index]: index in elements, any lane may be read: mask bad lanes to a safe index first.
+HWY_INLINE F32 gather(const float* base, I32 index) { return {hn::GatherIndex(DF(), base, index.v)}; }
+HWY_INLINE I32 gather(const int32_t* base, I32 index) { return {hn::GatherIndex(DI(), base, index.v)}; }
+HWY_INLINE I32 gather(const uint32_t* base, I32 index) {
+  return gather(reinterpret_cast<const int32_t*>(base), index);
+}
+
+// ---- double ------------------------------------------------------------------------------------------------------------
+HWY_INLINE F64 operator+(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Add(a.v[h], b.v[h]); return r; }
+HWY_INLINE F64 operator-(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Sub(a.v[h], b.v[h]); return r; }
+HWY_INLINE F64 operator*(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Mul(a.v[h], b.v[h]); return r; }
+HWY_INLINE F64 operator/(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Div(a.v[h], b.v[h]); return r; }
+HWY_INLINE F64 sqrt_(F64 a) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Sqrt(a.v[h]); return r; }
+HWY_INLINE F64 abs_(F64 a) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Abs(a.v[h]); return r; }
+HWY_INLINE F64 operator-(F64 a) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Xor(a.v[h], hn::Set(DD(), -0.0)); return r; }
+// a < b ? yes : no, lane by lane (NaN: no).
+HWY_INLINE F64 select_lt(F64 a, F64 b, F64 yes, F64 no) {
+  F64 r;
+  for (int h = 0; h < kHalves; ++h) r.v[h] = hn::IfThenElse(hn::Lt(a.v[h], b.v[h]), yes.v[h], no.v[h]);
+  return r;
+}
+HWY_INLINE F64 select_eq(F64 a, F64 b, F64 yes, F64 no) {
+  F64 r;
+  for (int h = 0; h < kHalves; ++h) r.v[h] = hn::IfThenElse(hn::Eq(a.v[h], b.v[h]), yes.v[h], no.v[h]);
+  return r;
+}
+HWY_INLINE F64 min_(F64 a, F64 b) { return select_lt(a, b, a, b); }
+HWY_INLINE F64 max_(F64 a, F64 b) { return select_lt(b, a, a, b); }
+
+HWY_INLINE F64 to_f64(F32 a) {
+  F64 r;
+#if HWY_TARGET == HWY_SCALAR
+  r.v[0] = hn::PromoteTo(DD(), a.v);
+#else
+  r.v[0] = hn::PromoteTo(DD(), hn::LowerHalf(DHF(), a.v));
+  r.v[1] = hn::PromoteTo(DD(), hn::UpperHalf(DHF(), a.v));
+#endif
+  return r;
+}
+HWY_INLINE F64 to_f64(I32 a) {  // exact
+  F64 r;
+#if HWY_TARGET == HWY_SCALAR
+  r.v[0] = hn::PromoteTo(DD(), a.v);
+#else
+  r.v[0] = hn::PromoteTo(DD(), hn::LowerHalf(DHI(), a.v));
+  r.v[1] = hn::PromoteTo(DD(), hn::UpperHalf(DHI(), a.v));
+#endif
+  return r;
+}
+HWY_INLINE F32 to_f32(F64 a) {  // round to nearest even; overflow to infinity
+#if HWY_TARGET == HWY_SCALAR
+  return {hn::Set(DF(), static_cast<float>(hn::GetLane(a.v[0])))};  // Highway's scalar DemoteTo saturates instead
+#else
+  return {hn::Combine(DF(), hn::DemoteTo(DHF(), a.v[1]), hn::DemoteTo(DHF(), a.v[0]))};
+#endif
+}
+HWY_INLINE Mask operator<(F64 a, F64 b) { return to_f32(select_lt(a, b, f64(1.0), f64(0.0))) > F32::zero(); }
+HWY_INLINE Mask operator>(F64 a, F64 b) { return b < a; }
+HWY_INLINE Mask operator==(F64 a, F64 b) { return to_f32(select_eq(a, b, f64(1.0), f64(0.0))) > F32::zero(); }
+
+// ---- fused multiply-add ----------------------------------------------------------------------------------------------
+// a * b + c with one rounding, on every target. Where the machine has no fma: the product is exact in double, the sum is
+// rounded to odd, and rounding that to float is then correct (Boldo and Melquiond 2008, "Emulation of FMA and
+// Correctly Rounded Sums: Proved Algorithms Using Rounding to Odd").
+#if HWY_NATIVE_FMA
+HWY_INLINE F32 mul_add(F32 a, F32 b, F32 c) { return {hn::MulAdd(a.v, b.v, c.v)}; }
+#else
+HWY_INLINE F32 mul_add(F32 a, F32 b, F32 c) {
+  const F64 p = to_f64(a) * to_f64(b);
+  const F64 cd = to_f64(c);
+  const F64 s = p + cd;
+  const F64 bb = s - p;
+  const F64 error = (p - (s - bb)) + (cd - bb);  // TwoSum: s + error = p + c exactly; NaN where s is not finite
+  F64 odd;
+  for (int h = 0; h < kHalves; ++h) {
+    const DD d;
+    const DDI di;
+    const auto bits = hn::BitCast(di, s.v[h]);
+    const auto zero = hn::Zero(d);
+    // Inexact: the error is an ordered nonzero. Infinite or NaN sums have a NaN error and stay as they are.
+    const auto inexact = hn::Or(hn::Lt(error.v[h], zero), hn::Gt(error.v[h], zero));
+    const auto even = hn::Eq(hn::And(bits, hn::Set(di, 1)), hn::Zero(di));
+    // Toward the error: away from zero in the bits if the signs agree, else toward zero.
+    const auto same_sign = hn::Gt(hn::Mul(hn::CopySign(hn::Set(d, 1.0), error.v[h]), hn::CopySign(hn::Set(d, 1.0), s.v[h])), zero);
+    const auto step = hn::IfThenElse(hn::RebindMask(di, same_sign), hn::Set(di, 1), hn::Set(di, -1));
+    const auto moved = hn::Add(bits, step);
+    const auto use = hn::And(hn::RebindMask(di, inexact), even);
+    odd.v[h] = hn::BitCast(d, hn::IfThenElse(use, moved, bits));
+  }
+  return to_f32(odd);
+}
+#endif
+// c - a * b with one rounding.
+HWY_INLINE F32 neg_mul_add(F32 a, F32 b, F32 c) { return mul_add(-a, b, c); }
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_LANES_INL_H_
