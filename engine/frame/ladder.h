@@ -32,7 +32,8 @@ class Ladder {
   int height() const { return height_; }
 
   // {"numeric_contract", "width", "height", "tile_size", "rungs": [{"name", "hash", "tiles": [{"tile", "hash",
-  // "pixels": 4 hexadecimal digits a pixel, row by row}]}], "primitives": ...}
+  // "pixels": 4 hexadecimal digits a pixel, row by row}]}], "primitives": [8 digits a pixel, a string a tile]}
+  // Written atomically. Reading checks every size; errors name the file and the field.
   Result<void> write_json(const std::string& path) const;
   static Result<Ladder> read_json(const std::string& path);
 
@@ -40,16 +41,24 @@ class Ladder {
     bool found = false;
     Rung rung = Rung::kScene;
     int tile = -1, x = -1, y = -1;             // -1: the rung has no tiles
-    uint32_t primitive_a = 0, primitive_b = 0;  // at that pixel
+    uint32_t primitive_a = 0, primitive_b = 0;  // at that pixel; 0xffffffff: background
     std::string to_string() const;
   };
-  // The first difference in order of rungs, then tiles, then pixels. Different sizes differ at kScene.
+  // The first difference in order of rungs, then tiles, then pixels. Different sizes differ at kScene. After read_json a
+  // pixel has 16 bits: a tile may differ (64 bits) where no pixel shows it (1 in 65536), then x and y stay -1.
   static Difference first_difference(const Ladder& a, const Ladder& b);
 
+  // Of the whole picture: what set() gave, or the hash of all tiles.
+  uint64_t hash(Rung rung) const;
+
  private:
+  uint64_t tile_hash(int rung, int tile) const;
+
   int width_ = 0, height_ = 0;
+  bool from_file_ = false;                       // then pixels have 16 bits and tile hashes stand in tiles_
   uint64_t whole_[kRungCount] = {};
-  std::vector<uint64_t> pixels_[kRungCount];  // after read_json: the 16 bits kept a pixel
+  std::vector<uint64_t> pixels_[kRungCount];     // empty for whole-frame rungs
+  std::vector<uint64_t> tiles_[kRungCount];
   std::vector<uint32_t> primitive_;
 };
 

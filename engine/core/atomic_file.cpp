@@ -1,0 +1,65 @@
+#include "core/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace spanray {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(const std::string& path) {
+  const fs::path parent = fs::path(path).parent_path();
+  return parent.empty() ? std::string(".") : parent.string();
+}
+
+Error system_error(const std::string& path, const char* what, int code) {
+  return Error{std::string(what) + ": " + std::strerror(code), path};
+}
+
+// 0 or the errno of the write that failed.
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    bytes.remove_prefix(static_cast<size_t>(n));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Result<void> check_writable(const std::string& path) {
+  if (path.empty()) return Error{"cannot write: the name of the file is empty"};
+  std::error_code ignored;
+  const std::string folder = folder_of(path);
+  if (!fs::exists(folder, ignored)) return Error{"cannot write: the folder " + folder + " does not exist", path};
+  if (!fs::is_directory(folder, ignored)) return Error{"cannot write: " + folder + " is not a folder", path};
+  if (fs::is_directory(path, ignored)) return Error{"cannot write: it is a folder", path};
+  if (::access(folder.c_str(), W_OK) != 0) return Error{"cannot write: no permission to write into " + folder, path};
+  return {};
+}
+
+Result<void> write_file_atomic(const std::string& path, std::string_view bytes) {
+  if (auto possible = check_writable(path); !possible) return possible;
+  static std::atomic<unsigned> serial{0};
+  const std::string temporary = path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return system_error(path, "cannot write", errno);
+  int failure = write_all(file, bytes);
+  if (::close(file) != 0 && failure == 0) failure = errno;
+  if (failure == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) failure = errno;
+  if (failure == 0) return {};
+  ::unlink(temporary.c_str());
+  return system_error(path, "cannot write", failure);
+}
+
+}  // namespace spanray
