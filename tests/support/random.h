@@ -1,0 +1,20 @@
+// Random numbers for tests, the same with every standard library (std:: distributions are not).
+#pragma once
+#include <cstdint>
+#include <random>
+
+namespace spanray {
+
+class TestRandom {
+ public:
+  explicit TestRandom(uint32_t seed) : engine_(seed) {}
+  uint32_t bits() { return static_cast<uint32_t>(engine_()); }
+  int below(int n) { return static_cast<int>(bits() % static_cast<uint32_t>(n)); }
+  int between(int low, int high) { return low + below(high - low + 1); }                       // both included
+  double uniform(double low = 0, double high = 1) { return low + (high - low) * (bits() * (1.0 / 4294967296.0)); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+}  // namespace spanray
