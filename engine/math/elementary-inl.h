@@ -1,0 +1,89 @@
+// exp2, log2 and pow for lanes: the same bits on every target, no libm. Computed in double, so that a float result is off by
+// hardly more than its own rounding. Include after simd/lanes-inl.h's own includes, inside a *_kernel.cpp (simd/dispatch.h).
+#if defined(SPANRAY_ELEMENTARY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_ELEMENTARY_INL_H_
+#undef SPANRAY_ELEMENTARY_INL_H_
+#else
+#define SPANRAY_ELEMENTARY_INL_H_
+#endif
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+
+// log2 of positive normal doubles. Relative error <= 2^-44.8.
+// Source:   x = 2^k m, m in [sqrt(1/2), sqrt(2)); log2(m) = s P(s^2), s = (m - 1) / (m + 1) (the series of atanh, as in
+//           Tang 1990); P by our own Remez iteration, relative error 2^-45.1.
+// Contract: exactly 0 for x = 1, and no cancellation around it.
+HWY_INLINE F64 log2_normal(F64 x) {
+  const int64_t sqrt_half = 0x3fe6a09e667f3bcd, bias = int64_t{1023} << 52;
+  const I64 bits = bits_of(x);
+  // Biased exponent of x / sqrt(1/2): positive for every float, so that a logical shift will do.
+  const I64 exponent = shift_right_logical<52>(bits - i64(sqrt_half - bias));
+  const F64 m = double_from_bits(bits - shift_left<52>(exponent) + i64(bias));
+  // 2^52 + exponent, written as bits, is that very double: the conversion from integer, exact.
+  const F64 k = double_from_bits(exponent | i64(0x4330000000000000)) - f64(4503599627370496.0 + 1023.0);
+  const F64 s = (m - f64(1.0)) / (m + f64(1.0));
+  const F64 z = s * s;
+  F64 p = f64(0x1.21b0eab01337fp-2);
+  p = p * z + f64(0x1.4795562fb9504p-2);
+  p = p * z + f64(0x1.a61a2ec9f9af8p-2);
+  p = p * z + f64(0x1.2776c2933e31cp-1);
+  p = p * z + f64(0x1.ec709dc53c678p-1);
+  p = p * z + f64(0x1.71547652b8251p+1);
+  return k + s * p;
+}
+
+// 2^x for |x| <= 1000. Relative error <= 2^-40.2.
+// Source:   x = k + r, |r| <= 1/2; 2^r by a polynomial of degree 8 from our own Remez iteration; 2^k in the exponent bits.
+HWY_INLINE F64 exp2_bounded(F64 x) {
+  const F64 shifter = f64(6755399441055744.0);  // 1.5 * 2^52: adding it rounds to an integer, left in the low bits
+  const F64 shifted = x + shifter;
+  const F64 r = x - (shifted - shifter);
+  F64 p = f64(0x1.61afcad90244fp-20);
+  p = p * r + f64(0x1.00dad2179cca2p-16);
+  p = p * r + f64(0x1.430acca6a0d3ep-13);
+  p = p * r + f64(0x1.5d874838b75e2p-10);
+  p = p * r + f64(0x1.3b2ab5c5279d6p-7);
+  p = p * r + f64(0x1.c6b08dd46cdf1p-5);
+  p = p * r + f64(0x1.ebfbdff9319eap-3);
+  p = p * r + f64(0x1.62e42fef86160p-1);
+  p = p * r + f64(0x1.ffffffffff7a3p-1);
+  return double_from_bits(bits_of(p) + shift_left<52>(bits_of(shifted)));
+}
+
+// To [-200, 200], beyond which every float result is 0 or infinity; NaN -> -200.
+HWY_INLINE F64 clamp_exponent(F64 x) { return min_(max_(x, f64(-200.0)), f64(200.0)); }
+
+// 2^x. Input: any. Error <= 0.5001 ulp, subnormal results included; 0 below -150, infinity from 128; NaN -> 0.
+HWY_INLINE F32 exp2_(F32 x) { return to_f32(exp2_bounded(clamp_exponent(to_f64(x)))); }
+
+// Base-2 logarithm. Input: any. Error <= 0.5001 ulp; +-0 -> -infinity; +infinity -> +infinity; negative or NaN -> NaN.
+HWY_INLINE F32 log2_(F32 x) {
+  const F32 infinity = float_from_bits(i32(0x7f800000));
+  F32 r = to_f32(log2_normal(to_f64(x)));
+  r = select(x == infinity, x, r);
+  r = select(x == F32::zero(), -infinity, r);
+  return select(x >= F32::zero(), r, float_from_bits(i32(0x7fc00000)));
+}
+
+// base^exponent. Input: base >= 0, any exponent. Error <= 0.501 ulp of the exact result, gradual underflow included.
+// Contract: pow(x, 0) = 1 for every x, also 0; pow(0, n > 0) = 0; pow(0, n < 0) = infinity; pow(1, n) = 1; never NaN.
+//           A base that is negative or NaN counts as 0, an infinite one as 2^1024. A NaN exponent, or an infinite one of
+//           base 1, gives 0.
+HWY_INLINE F32 pow_(F32 base, F32 exponent) {
+  const F32 zero = F32::zero();
+  const F32 infinity = float_from_bits(i32(0x7f800000));
+  const F32 power = to_f32(exp2_bounded(clamp_exponent(log2_normal(to_f64(base)) * to_f64(exponent))));
+  const F32 r = select(base > zero, power, select(exponent < zero, infinity, zero));
+  return select(exponent == zero, f32(1.0f), r);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_ELEMENTARY_INL_H_
