@@ -16,8 +16,9 @@ class LitVertexCache {
   ~LitVertexCache();
   struct Impl;
   Impl& impl() { return *impl_; }
+  void reset();  // forgets all light: between frames, O(1)
   size_t memory_bytes() const;
-  uint64_t lit_count() const;  // vertices lit so far
+  uint64_t lit_count() const;  // vertices lit since the last reset
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -1,0 +1,38 @@
+// shade/light.h: the kernel of the frame's instruction set, and the cache of lit vertices.
+#include "shade/light.h"
+
+#include "shade/light_kernel.h"
+#include "shade/lit_vertex_cache.h"
+
+namespace spanray {
+
+void make_shadow_rays(const Frame& frame, const SurfaceBatch& surfaces, int light, RayBatch& rays,
+                      AlignedBuffer<uint32_t>& surface_of_ray) {
+  kMakeShadowRays[isa_index(frame.isa)](frame, surfaces, light, rays, surface_of_ray);
+}
+
+void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]) {
+  kShadeAmbient[isa_index(frame.isa)](frame, surfaces, radiance);
+}
+
+void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, int light, const uint32_t* lit,
+                 LitVertexCache* cache, float* const radiance[3]) {
+  const int isa = isa_index(frame.isa);
+  if (frame.settings.shading != Shading::kGouraud) {
+    kShadeLight[isa](frame, surfaces, hits, light, lit, radiance);
+    return;
+  }
+  const float* corner_light = nullptr;
+  if (cache != nullptr && hits.rays == nullptr) {
+    cache->impl().light_vertices_of(frame, surfaces);
+    corner_light = cache->impl().values_of(light);
+  }
+  kShadeLightGouraud[isa](frame, surfaces, hits, light, lit, corner_light, radiance);
+}
+
+void make_bounce_rays(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,
+                      AlignedBuffer<uint32_t>& surface_of_ray) {
+  kMakeBounceRays[isa_index(frame.isa)](frame, surfaces, hits, rays, surface_of_ray);
+}
+
+}  // namespace spanray

@@ -1,0 +1,187 @@
+// Rays that surfaces ask for: shadow rays to a light, mirror rays.
+#include "shade/light_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/light_rays_kernel.cpp"
+#include "hwy/foreach_target.h"
+#include "shade/light_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+namespace {
+using namespace light_lanes;
+
+// The next float in the direction of the sign of `toward`; x itself where that is 0.
+HWY_INLINE F32 step_toward(F32 x, F32 toward) {
+  const F32 zero = F32::zero();
+  const F32 start = x + zero;  // -0 becomes +0
+  const I32 one = i32(1);
+  const I32 bits = bits_of(start);
+  const I32 up = select(start >= zero, bits + one, bits - one);
+  const I32 down = select(start > zero, bits - one, select(start == zero, i32(int32_t{-0x7fffffff}), bits + one));
+  return select(toward > zero, float_from_bits(up), select(toward < zero, float_from_bits(down), start));
+}
+
+// Moves a point off its surface, to the side of the unit normal n, so that the true point of the surface, which lies within
+// `error` of it in each coordinate, stays strictly behind.
+// Source:   Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 6.8.6.
+// Contract: origin - true point has a positive component along the exact normal, also when n is off by 2^-21.
+HWY_INLINE V3 offset_origin(const V3& position, const V3& n, F32 error) {
+  const F32 distance = error * (abs_(n.x) + abs_(n.y) + abs_(n.z)) * f32(1.0f + 0x1p-18f);
+  return {step_toward(mul_add(distance, n.x, position.x), n.x), step_toward(mul_add(distance, n.y, position.y), n.y),
+          step_toward(mul_add(distance, n.z, position.z), n.z)};
+}
+
+HWY_INLINE void store3(const V3& v, float out[3][kLanes]) { v.x.store(out[0]), v.y.store(out[1]), v.z.store(out[2]); }
+
+// Shadow rays of one light, appended in order of surfaces.
+// Input:    Phong shading leaves out surfaces whose shading normal faces away; interpolated light (Gouraud) has no such rule.
+// Contract: a surface without a ray gets nothing from this light, whatever its bit says.
+template <class Kind>
+void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, RayBatch& rays,
+                 AlignedBuffer<uint32_t>& surface_of_ray) {
+  const LightLanes lanes = broadcast_light(light);
+  const bool by_normal = frame.settings.shading == Shading::kPhong;
+  int n = rays.count;
+  rays.resize(n + s.count, false);
+  surface_of_ray.resize(static_cast<size_t>(n + s.count));
+  for (int i = 0; i < s.count; i += kLanes) {
+    Mask active = active_lanes(s, i, nullptr);
+    if (!any(active)) continue;
+    const V3 position = load3(s.position, i);
+    const Incidence incidence = Kind::incidence(lanes, position);
+    active = active & in_front(s, i, incidence);
+    if (by_normal) active = active & (formula::dot(load3(s.normal, i), incidence.direction) > F32::zero());
+    if (!any(active)) continue;
+    const V3 from = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
+    const Segment segment = Kind::segment(lanes, from);
+    float origin[3][kLanes], direction[3][kLanes], t_max[kLanes];
+    store3(from, origin);
+    store3(segment.direction, direction);
+    segment.t_max.store(t_max);
+    for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
+      rays.t_max[n] = t_max[k];
+      rays.pixel[n] = s.pixel[i + k];
+      surface_of_ray[n++] = static_cast<uint32_t>(i + k);
+    }
+  }
+  rays.resize(n, false);
+  surface_of_ray.resize(static_cast<size_t>(n));
+}
+
+// Unit direction of the ray that hit, and its differentials by pixel x and y.
+struct RayDirection { V3 d, dx, dy; };
+
+// Derivative of D / |D| where d = D / |D| (Igehy 1999, eq. 8).
+HWY_INLINE V3 unit_derivative(const V3& d, F32 length, const V3& derivative) {
+  return formula::divide_or_zero(derivative - formula::dot(d, derivative) * d, length);
+}
+
+HWY_INLINE RayDirection ray_direction(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, Mask active, int i) {
+  const V3 d = -load3(s.view, i);
+  if (hits.rays == nullptr) {
+    const PrimaryRays& p = frame.primary;
+    const I32 pixel = I32::load(s.pixel + i);
+    const F64 x = to_f64(pixel & i32(0xffff)) + f64(0.5), y = to_f64(shift_right_logical<16>(pixel)) + f64(0.5);
+    const V3 whole = {to_f32(f64(p.corner.x) + x * f64(p.step_x.x) + y * f64(p.step_y.x)),
+                      to_f32(f64(p.corner.y) + x * f64(p.step_x.y) + y * f64(p.step_y.y)),
+                      to_f32(f64(p.corner.z) + x * f64(p.step_x.z) + y * f64(p.step_y.z))};
+    const F32 length = formula::length(whole);
+    const V3 step_x = {to_f32(f64(p.step_x.x)), to_f32(f64(p.step_x.y)), to_f32(f64(p.step_x.z))};
+    const V3 step_y = {to_f32(f64(p.step_y.x)), to_f32(f64(p.step_y.y)), to_f32(f64(p.step_y.z))};
+    return {d, unit_derivative(d, length, step_x), unit_derivative(d, length, step_y)};
+  }
+  const RayBatch& rays = *hits.rays;
+  const V3 zero = {F32::zero(), F32::zero(), F32::zero()};
+  if (rays.direction_dx[0].empty()) return {d, zero, zero};
+  const I32 ray = select(active, I32::load(s.ray + i), I32::zero());
+  const auto at = [ray](const AlignedBuffer<float>* a) HWY_ATTR -> V3 {
+    return {gather(a[0].data(), ray), gather(a[1].data(), ray), gather(a[2].data(), ray)};
+  };
+  const F32 length = formula::length(at(rays.direction));
+  return {d, unit_derivative(d, length, at(rays.direction_dx)), unit_derivative(d, length, at(rays.direction_dy))};
+}
+
+// n.r of mirror rays, by the geometric normal, is at least this: a shading normal may point a mirror ray into its own surface.
+constexpr float kHorizon = 0x1p-10f;
+
+// r = d - 2 (d.n) n, lifted above the horizon of the geometric normal.
+HWY_INLINE V3 mirror_direction(const V3& d, const V3& n, const V3& geometric_normal) {
+  const F32 twice = f32(-2.0f) * formula::dot(d, n);
+  const V3 r = {mul_add(twice, n.x, d.x), mul_add(twice, n.y, d.y), mul_add(twice, n.z, d.z)};
+  const F32 missing = max_(f32(kHorizon) - formula::dot(geometric_normal, r), F32::zero());
+  return r + missing * geometric_normal;
+}
+
+// dr = dd - 2 [(d.n) dn + (dd.n + d.dn) n] with dn = 0.
+HWY_INLINE V3 mirror_differential(const V3& dd, const V3& n) {
+  return dd + (f32(-2.0f) * formula::dot(dd, n)) * n;
+}
+
+}  // namespace
+
+void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light, RayBatch& rays,
+                            AlignedBuffer<uint32_t>& surface_of_ray) {
+  const Light& l = frame.scene->lights[static_cast<size_t>(light)];
+  switch (l.kind) {
+#define SPANRAY_CATALOG_ENTRY(index, name) \
+  case index: return shadow_rays<LightKind_##name>(frame, s, l, rays, surface_of_ray);
+#include "catalog_lights_list.inc"
+#undef SPANRAY_CATALOG_ENTRY
+  }
+}
+
+// Mirror rays about the shading normal, appended in order of surfaces.
+// Source:   Igehy 1999, "Tracing Ray Differentials", eqs. 13-15. The normal's own differential is taken as 0: footprints in
+//           curved mirrors are those of the tangent plane's mirror.
+// Output:   directions, unit length but where lifted over the horizon; t_max infinite.
+// Contract: n_g.r > 0.
+void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, RayBatch& rays,
+                            AlignedBuffer<uint32_t>& surface_of_ray) {
+  int n = rays.count;
+  rays.resize(n + s.count, true);
+  surface_of_ray.resize(static_cast<size_t>(n + s.count));
+  for (int i = 0; i < s.count; i += kLanes) {
+    const V3 mirror = load3(s.mirror, i);
+    const F32 zero = F32::zero();
+    const Mask active = active_lanes(s, i, nullptr) & ((mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero));
+    if (!any(active)) continue;
+    const V3 normal = load3(s.normal, i), geometric_normal = load3(s.geometric_normal, i);
+    const RayDirection ray = ray_direction(frame, s, hits, active, i);
+    float lanes[18][kLanes];
+    store3(offset_origin(load3(s.position, i), geometric_normal, F32::load(s.position_error + i)), lanes);
+    store3(mirror_direction(ray.d, normal, geometric_normal), lanes + 3);
+    store3(load3(s.dpdx, i), lanes + 6);
+    store3(load3(s.dpdy, i), lanes + 9);
+    store3(mirror_differential(ray.dx, normal), lanes + 12);
+    store3(mirror_differential(ray.dy, normal), lanes + 15);
+    for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      for (int a = 0; a < 3; ++a) {
+        rays.origin[a][n] = lanes[a][k], rays.direction[a][n] = lanes[3 + a][k];
+        rays.origin_dx[a][n] = lanes[6 + a][k], rays.origin_dy[a][n] = lanes[9 + a][k];
+        rays.direction_dx[a][n] = lanes[12 + a][k], rays.direction_dy[a][n] = lanes[15 + a][k];
+      }
+      rays.t_max[n] = kInfinity;
+      rays.pixel[n] = s.pixel[i + k];
+      surface_of_ray[n++] = static_cast<uint32_t>(i + k);
+    }
+  }
+  rays.resize(n, true);
+  surface_of_ray.resize(static_cast<size_t>(n));
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace spanray {
+const MakeShadowRaysFn kMakeShadowRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_shadow_rays_entry);
+const MakeBounceRaysFn kMakeBounceRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_bounce_rays_entry);
+}  // namespace spanray
+#endif
