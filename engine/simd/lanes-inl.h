@@ -223,6 +223,26 @@ HWY_INLINE F32 to_f32(F64 a) {  // round to nearest even; overflow to infinity
   return {hn::Combine(DF(), hn::DemoteTo(DHF(), a.v[1]), hn::DemoteTo(DHF(), a.v[0]))};
 #endif
 }
+// Truncates toward zero; saturates to +-2147483647; NaN -> -2147483647.
+HWY_INLINE I32 to_i32(F64 a) {
+  const F64 c = min_(max_(a, f64(-2147483647.0)), f64(2147483647.0));
+#if HWY_TARGET == HWY_SCALAR
+  return {hn::DemoteTo(DI(), c.v[0])};
+#else
+  return {hn::Combine(DI(), hn::DemoteTo(DHI(), c.v[1]), hn::DemoteTo(DHI(), c.v[0]))};
+#endif
+}
+// Smallest integer >= a, for |a| < 2^31 - 1; saturates as to_i32.
+HWY_INLINE I32 ceil_i32(F64 a) {
+  const F64 t = to_f64(to_i32(a));
+  return to_i32(select_lt(t, a, t + f64(1.0), t));
+}
+// Nearest integer, halves up, for |a| < 2^31 - 1; saturates as to_i32. No double rounding: a - floor(a) is exact or above 1/2.
+HWY_INLINE I32 round_i32(F64 a) {
+  const F64 t = to_f64(to_i32(a));
+  const F64 floor = select_lt(a, t, t - f64(1.0), t);
+  return to_i32(select_lt(a - floor, f64(0.5), floor, floor + f64(1.0)));
+}
 HWY_INLINE Mask operator<(F64 a, F64 b) { return to_f32(select_lt(a, b, f64(1.0), f64(0.0))) > F32::zero(); }
 HWY_INLINE Mask operator>(F64 a, F64 b) { return b < a; }
 HWY_INLINE Mask operator==(F64 a, F64 b) { return to_f32(select_eq(a, b, f64(1.0), f64(0.0))) > F32::zero(); }

@@ -1,0 +1,131 @@
+// Triangles -> screen triangles: drops, culls, clips, and sets up depth.
+#include <algorithm>
+
+#include "raster/clip_polygon.h"
+#include "raster/depth_plane.h"
+#include "raster/fixed_point.h"
+#include "raster/raster.h"
+
+namespace spanray {
+namespace {
+
+// The number of chunks bounds the memory of per-tile lists; their limits depend on the scene alone.
+constexpr size_t kMinChunk = 2048, kMaxChunks = 128;
+
+// One chunk's work, in order of primitives.
+class ChunkClipper {
+ public:
+  ChunkClipper(const Frame& frame, const ScreenVertices& vertices, BinChunk& chunk)
+      : frame_(frame), vertices_(vertices), chunk_(chunk) {}
+
+  FrameCounts run(uint32_t begin, uint32_t end) {
+    chunk_.triangles.clear();
+    for (uint32_t primitive = begin; primitive < end; ++primitive) process(primitive);
+    return counts_;
+  }
+
+ private:
+  void process(uint32_t primitive) {
+    const Triangle& t = frame_.scene->triangles[primitive];
+    uint16_t all = 0xffff, any = 0;
+    for (const uint32_t v : t.vertex) {
+      const uint16_t code = vertices_.outcode[v];
+      all = static_cast<uint16_t>(all & code);
+      any = static_cast<uint16_t>(any | code);
+    }
+    ++counts_.triangles_in;
+    if (any & kOutInvalid) {
+      ++counts_.triangles_invalid;
+      return;
+    }
+    const size_t drawn_before = chunk_.triangles.size();
+    if (all == 0 && !is_back_face(t)) {
+      if (any & kOutClipMask) {
+        ++counts_.triangles_clipped;
+        emit_clipped(t, primitive);
+      } else {
+        SnappedPoint p[3];
+        for (int i = 0; i < 3; ++i) p[i] = {vertices_.x_24_8[t.vertex[i]], vertices_.y_24_8[t.vertex[i]]};
+        if (covers_a_center(p)) emit(p, setup(t, primitive));
+      }
+    }
+    ++(chunk_.triangles.size() > drawn_before ? counts_.triangles_drawn : counts_.triangles_culled);
+  }
+
+  // Edge-on triangles are no front faces: a ray misses them.
+  bool is_back_face(const Triangle& t) const {
+    return frame_.settings.culling == Culling::kBack && !(facing(*frame_.scene, t, frame_.primary.eye) > 0);
+  }
+
+  void emit_clipped(const Triangle& t, uint32_t primitive) {
+    HomogeneousPoint corner[3];
+    for (int i = 0; i < 3; ++i) corner[i] = {vertices_.x[t.vertex[i]], vertices_.y[t.vertex[i]], vertices_.w[t.vertex[i]]};
+    SnappedPoint polygon[kMaxClipVertices];
+    const int n = clip_to_guard_band(corner, frame_.primary.near_plane, polygon);
+    if (n == 0) return;
+    uint8_t piece[kMaxClipVertices - 2][3];
+    const int pieces = triangulate(polygon, n, piece);
+    const ScreenTriangle original = setup(t, primitive);
+    for (int i = 0; i < pieces; ++i) {
+      const SnappedPoint p[3] = {polygon[piece[i][0]], polygon[piece[i][1]], polygon[piece[i][2]]};
+      if (covers_a_center(p)) emit(p, original);
+    }
+  }
+
+  // False if there is no area, or no pixel center of the picture within the bounding box.
+  bool covers_a_center(const SnappedPoint p[3]) const {
+    const auto [x_min, x_max] = std::minmax({p[0].x_24_8, p[1].x_24_8, p[2].x_24_8});
+    const auto [y_min, y_max] = std::minmax({p[0].y_24_8, p[1].y_24_8, p[2].y_24_8});
+    if (std::max(first_center(x_min), 0) >= std::min(first_center(x_max), frame_.grid.width)) return false;
+    if (std::max(first_center(y_min), 0) >= std::min(first_center(y_max), frame_.grid.height)) return false;
+    const int64_t area = int64_t{p[1].x_24_8 - p[0].x_24_8} * (p[2].y_24_8 - p[0].y_24_8) -
+                         int64_t{p[2].x_24_8 - p[0].x_24_8} * (p[1].y_24_8 - p[0].y_24_8);
+    return area != 0;
+  }
+
+  // All of a screen triangle but its corners.
+  ScreenTriangle setup(const Triangle& t, uint32_t primitive) const {
+    const double view_depth[3] = {vertices_.w[t.vertex[0]], vertices_.w[t.vertex[1]], vertices_.w[t.vertex[2]]};
+    const DepthPlane plane = make_depth_plane(frame_, t, view_depth);
+    ScreenTriangle s;
+    s.primitive = primitive;
+    s.flags = flags_of(frame_, primitive);
+    s.depth_min = plane.min, s.depth_max = plane.max;
+    s.depth0 = plane.depth0, s.depth_dx = plane.dx, s.depth_dy = plane.dy;
+    return s;
+  }
+
+  void emit(const SnappedPoint p[3], ScreenTriangle s) {
+    for (int i = 0; i < 3; ++i) s.x_24_8[i] = p[i].x_24_8, s.y_24_8[i] = p[i].y_24_8;
+    chunk_.triangles.push_back(s);
+  }
+
+  const Frame& frame_;
+  const ScreenVertices& vertices_;
+  BinChunk& chunk_;
+  FrameCounts counts_;
+};
+
+}  // namespace
+
+void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts) {
+  const size_t n = frame.scene->triangles.size();
+  const size_t chunk_size = std::max(kMinChunk, (n + kMaxChunks - 1) / kMaxChunks);
+  bins.grid = frame.grid;
+  bins.chunks.resize((n + chunk_size - 1) / chunk_size);
+  std::vector<FrameCounts> chunk_counts(bins.chunks.size());
+  frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int) {
+    ChunkClipper clipper(frame, vertices, bins.chunks[i]);
+    chunk_counts[i] =
+        clipper.run(static_cast<uint32_t>(i * chunk_size), static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)));
+  });
+  for (const FrameCounts& c : chunk_counts) {
+    counts.triangles_in += c.triangles_in;
+    counts.triangles_invalid += c.triangles_invalid;
+    counts.triangles_clipped += c.triangles_clipped;
+    counts.triangles_culled += c.triangles_culled;
+    counts.triangles_drawn += c.triangles_drawn;
+  }
+}
+
+}  // namespace spanray

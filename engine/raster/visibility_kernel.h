@@ -1,0 +1,13 @@
+#pragma once
+#include "frame/frame.h"
+#include "simd/isa.h"
+
+namespace spanray {
+
+using RasterizeTileFn = void (*)(const Frame& frame, const TileBins& bins, int tile, TileHits& out);
+using RasterizeTranslucentFn = void (*)(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque,
+                                        FragmentList& out);
+extern const RasterizeTileFn kRasterizeTile[kIsaCount];
+extern const RasterizeTranslucentFn kRasterizeTranslucent[kIsaCount];
+
+}  // namespace spanray
