@@ -41,6 +41,13 @@ struct RayBatch {
     }
     t_max.resize(n), pixel.resize(n);
   }
+  size_t memory_bytes() const {
+    size_t bytes = t_max.bytes() + pixel.bytes();
+    for (int k = 0; k < 3; ++k)
+      bytes += origin[k].bytes() + direction[k].bytes() + origin_dx[k].bytes() + origin_dy[k].bytes() + direction_dx[k].bytes() +
+               direction_dy[k].bytes();
+    return bytes;
+  }
 };
 
 // What was hit: by primary rays of the named pixels (rays == nullptr), or by (*rays)[ray[i]].
@@ -58,6 +65,7 @@ struct HitBatch {
     pixel.resize(n), primitive.resize(n);
     if (with_ray) ray.resize(n);
   }
+  size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes() + instance.bytes(); }
 };
 
 }  // namespace spanray
