@@ -6,6 +6,7 @@
 
 #include "frame/ladder.h"
 #include "image/encode.h"
+#include "raster/raster.h"
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 
