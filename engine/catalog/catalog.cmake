@@ -10,11 +10,7 @@
 set(SPANRAY_CATALOG_KINDS reflectance lights shading transparency)
 
 function(spanray_collect_catalog_kind source out kind)
-  if(CMAKE_SCRIPT_MODE_FILE)
-    file(GLOB formulas ${source}/${kind}/*.inl)
-  else()
-    file(GLOB formulas CONFIGURE_DEPENDS ${source}/${kind}/*.inl)
-  endif()
+  file(GLOB formulas CONFIGURE_DEPENDS ${source}/${kind}/*.inl)
   set(last -1)
   foreach(formula ${formulas})
     get_filename_component(name ${formula} NAME_WE)

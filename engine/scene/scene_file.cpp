@@ -1,0 +1,177 @@
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "catalog/catalog.h"
+#include "math/vec.h"
+#include "scene/toml_table.h"
+
+namespace spanray {
+namespace {
+
+constexpr Range kRadiance = {0, 1e12};
+constexpr Range kUnit = {0, 1};
+constexpr double kLeastLength = 1e-12;  // of directions; keeps squares far from underflow
+constexpr const char* kTransparencyWords[] = {"opaque", "mask", "alpha", "screen-door"};  // MaterialTransparency
+
+std::vector<std::string> transparency_words() { return {std::begin(kTransparencyWords), std::end(kTransparencyWords)}; }
+std::vector<std::string> reflectance_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < catalog_count(CatalogKind::kReflectance); ++i) words.emplace_back(catalog_name(CatalogKind::kReflectance, i));
+  return words;
+}
+
+void read_view(TomlTable& t, Camera& camera, bool* near_given) {
+  if (t.require("eye")) t.vector3("eye", kAnyNumber, camera.eye);
+  if (t.require("target")) t.vector3("target", kAnyNumber, camera.target);
+  t.vector3("up", kAnyNumber, camera.up);
+  t.number("fov_y", {0.001, 179.999}, &camera.fov_y_degrees);
+  if (t.number("near", {1e-12, 1e12}, &camera.near_plane)) *near_given = true;
+  const glm::dvec3 view(camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1], camera.target[2] - camera.eye[2]);
+  const glm::dvec3 direction = normalize3(view, glm::dvec3(0));
+  const glm::dvec3 up = normalize3(glm::dvec3(camera.up[0], camera.up[1], camera.up[2]), glm::dvec3(0));
+  if (!(length3(view) > kLeastLength)) t.fail("target", "is where the eye is");
+  else if (up == glm::dvec3(0)) t.fail("up", "has no length");
+  else if (!(length3(cross3(direction, up)) > 1e-9)) t.fail(t.has("up") ? "up" : "target", "gives a view along the up vector");
+}
+
+NamedCamera read_camera(const toml::table& table, TomlErrors& errors) {
+  TomlTable t(table, "camera", {"name", "eye", "target", "up", "fov_y", "near"}, errors);
+  NamedCamera camera;
+  t.text("name", &camera.name);
+  read_view(t, camera.camera, &camera.near_given);
+  return camera;
+}
+
+Light read_light(const toml::table& table, TomlErrors& errors) {
+  TomlTable t(table, "light", {"kind", "position", "direction", "intensity", "attenuation"}, errors);
+  Light light;
+  size_t kind = 0;
+  if (!t.require("kind") || !t.word("kind", {"point", "directional"}, &kind)) return light;
+  light.kind = static_cast<int32_t>(kind);
+  if (t.require("intensity")) t.vector3("intensity", kRadiance, light.intensity);
+  if (light.kind == static_cast<int32_t>(LightKind::kPoint)) {
+    if (t.require("position")) t.vector3("position", kAnyNumber, light.position);
+    if (t.has("direction")) t.fail("direction", "is for directional lights");
+    if (t.vector3("attenuation", kRadiance, light.attenuation) && light.attenuation[0] + light.attenuation[1] + light.attenuation[2] == 0)
+      t.fail("attenuation", "must not be zero throughout");
+    return light;
+  }
+  if (t.has("position")) t.fail("position", "is for point lights");
+  if (t.has("attenuation")) t.fail("attenuation", "is for point lights");
+  glm::dvec3 d(0);
+  if (!t.require("direction") || !t.vector3("direction", kAnyNumber, &d.x)) return light;
+  if (!(length3(d) > kLeastLength)) return t.fail("direction", "has no length"), light;
+  d = normalize3(d, glm::dvec3(0, -1, 0));
+  for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(d[k]) + 0.0f;
+  return light;
+}
+
+void read_path(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
+  for (const toml::table* table : root.tables("path")) {
+    TomlTable t(*table, "path", {"time", "eye", "target", "up", "fov_y", "near"}, errors);
+    CameraKey key{0, scene.cameras.empty() ? Camera() : scene.cameras.front().camera};
+    if (t.require("time")) t.number("time", {-1e9, 1e9}, &key.time);
+    read_view(t, key.camera, &scene.path_near_given);
+    if (!scene.path.empty() && !(key.time > scene.path.back().time)) t.fail("time", "must be greater than that of the key before");
+    scene.path.push_back(key);
+  }
+}
+
+void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
+  const toml::node* node = root.raw().get("technique");
+  if (node == nullptr) return;
+  if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
+  TomlTable t(*node->as_table(), "[technique]", {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling",
+                                                "max_bounces", "textures", "bump", "width", "height"}, errors);
+  t.word("shading", &s.shading);
+  t.word("shadows", &s.shadows);
+  t.word("reflections", &s.reflections);
+  t.word("visibility", &s.visibility);
+  t.word("filter", &s.filter);
+  t.word("transparency", &s.transparency);
+  t.word("culling", &s.culling);
+  t.integer("max_bounces", 0, 64, &s.max_bounces);
+  t.boolean("textures", &s.textures);
+  t.boolean("bump", &s.bump);
+  t.integer("width", 1, 16384, &s.width);
+  t.integer("height", 1, 16384, &s.height);
+}
+
+void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
+  const toml::node* node = root.raw().get("material");
+  if (node == nullptr) return;
+  if (!node->is_table()) return root.fail("material", "must hold tables, written [material.NAME]");
+  for (auto&& [key, value] : *node->as_table()) {
+    const std::string name(key.str());
+    if (!value.is_table()) {
+      errors.add(value.source(), "'" + name.substr(0, 60) + "' must be a table, written [material.NAME]");
+      continue;
+    }
+    TomlTable t(*value.as_table(), "[material." + name.substr(0, 60) + "]", {"transparency", "reflectance", "mirror", "opacity"}, errors);
+    MaterialOverride o;
+    o.name = name;
+    o.line = static_cast<int>(key.source().begin.line);
+    size_t word = 0;
+    double opacity = 1;
+    if (t.word("transparency", transparency_words(), &word))
+      o.transparency = static_cast<MaterialTransparency>(word);
+    if (t.word("reflectance", reflectance_words(), &word))
+      o.reflectance = static_cast<int32_t>(word);
+    if (t.number("opacity", kUnit, &opacity)) o.opacity = static_cast<float>(opacity);
+    o.mirror_given = t.vector3("mirror", kUnit, o.mirror);
+    scene.materials.push_back(o);
+  }
+}
+
+}  // namespace
+
+Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file) {
+  const toml::parse_result parsed = toml::parse(text, file);
+  if (!parsed)
+    return Error{std::string(parsed.error().description()), file, static_cast<int>(parsed.error().source().begin.line)};
+  TomlErrors errors(file);
+  TomlTable root(parsed.table(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"}, errors);
+  SceneFile scene;
+  const SceneData defaults;
+  std::copy(defaults.background, defaults.background + 3, scene.background);
+  std::copy(defaults.ambient_radiance, defaults.ambient_radiance + 3, scene.ambient);
+  if (root.require("obj") && root.text("obj", &scene.obj) && scene.obj.empty()) root.fail("obj", "is empty");
+  scene.obj_line = root.line_of("obj");
+  root.vector3("background", kRadiance, scene.background);
+  root.vector3("ambient", kRadiance, scene.ambient);
+  for (const toml::table* t : root.tables("camera")) scene.cameras.push_back(read_camera(*t, errors));
+  if (root.has("light")) {
+    scene.lights.emplace();
+    for (const toml::table* t : root.tables("light")) scene.lights->push_back(read_light(*t, errors));
+    if (scene.lights->size() > static_cast<size_t>(kMaxLights))
+      root.fail("light", "is given " + std::to_string(scene.lights->size()) + " times; at most " + std::to_string(kMaxLights) + " lights");
+  }
+  read_path(root, scene, errors);
+  read_technique(root, scene.settings, errors);
+  read_materials(root, scene, errors);
+  if (errors.first()) return *errors.first();
+  return scene;
+}
+
+Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene) {
+  for (const MaterialOverride& o : scene_file.materials) {
+    const auto it = std::find(scene.material_names.begin(), scene.material_names.end(), o.name);
+    if (it == scene.material_names.end())
+      return Error{"no material is named '" + o.name.substr(0, 60) + "'" + did_you_mean(o.name, scene.material_names), file, o.line};
+    Material& m = scene.materials[static_cast<size_t>(it - scene.material_names.begin())];
+    if (o.reflectance) m.reflectance = *o.reflectance;
+    if (o.mirror_given) std::copy(o.mirror, o.mirror + 3, m.mirror);
+    const int32_t opaque = static_cast<int32_t>(MaterialTransparency::kOpaque), alpha = static_cast<int32_t>(MaterialTransparency::kAlpha);
+    if (o.opacity) {
+      m.opacity = *o.opacity;
+      if (m.transparency == opaque && m.opacity < 1) m.transparency = alpha;
+      else if (m.transparency == alpha && m.opacity == 1) m.transparency = opaque;
+    }
+    if (o.transparency) m.transparency = static_cast<int32_t>(*o.transparency);
+  }
+  return {};
+}
+
+}  // namespace spanray

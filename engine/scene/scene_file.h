@@ -1,0 +1,49 @@
+// The scene file: TOML beside an OBJ, for what OBJ cannot say (lights, cameras, paths, techniques).
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene_data.h"
+#include "scene/text_input.h"
+#include "spanray/result.h"
+
+namespace spanray {
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+  bool near_given = false;
+};
+
+// [material.NAME]: goes over what the MTL says.
+struct MaterialOverride {
+  std::string name;
+  int line = 0;
+  std::optional<MaterialTransparency> transparency;
+  std::optional<int32_t> reflectance;
+  std::optional<float> opacity;
+  bool mirror_given = false;
+  float mirror[3] = {0, 0, 0};
+};
+
+struct SceneFile {
+  std::string obj;  // as written
+  int obj_line = 0;
+  std::optional<std::vector<Light>> lights;  // absent: the default light; an empty list: none
+  std::vector<NamedCamera> cameras;
+  std::vector<CameraKey> path;
+  bool path_near_given = false;
+  std::vector<MaterialOverride> materials;
+  float background[3], ambient[3];
+  Settings settings;
+};
+
+// Checks every key: unknown ones, wrong types and values out of range are errors with file and line.
+Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file);
+
+// Applies [material.*] to the materials of `scene`. Error: a name that no material has.
+Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene);
+
+}  // namespace spanray
