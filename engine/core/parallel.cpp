@@ -62,13 +62,18 @@ struct Parallel::Impl {
   }
 };
 #else
+// Without it an arena of 7 gets only as many workers as there are processors. One for the whole process, made once: of several
+// controls the least one would hold, so that pools of different sizes would starve each other. Never destroyed, since the
+// library may be gone before static objects are. It allows threads and makes none.
+static void allow_more_threads_than_processors() {
+  [[maybe_unused]] static const auto* const control =
+      new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(std::max(1024, processors())));
+}
+
 struct Parallel::Impl {
   int threads;
-  // Without the control an arena of 7 gets only as many workers as there are processors.
-  tbb::global_control control;
   tbb::task_arena arena;
-  explicit Impl(int n)
-      : threads(n), control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(std::max(n, processors()))), arena(n) {}
+  explicit Impl(int n) : threads(n), arena(n) { allow_more_threads_than_processors(); }
   void run(Loop& loop, int workers) {
     arena.execute([&] {
       tbb::task_group group;
