@@ -1,0 +1,214 @@
+// Builds the eight-wide tree top-down: each node is opened from one range, largest surface first, until it has eight parts.
+// Source:   Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies" (binning); Wald, Benthin, Boulos 2008,
+//           "Getting Rid of Packets" (opening the child of largest area).
+// Input:    triangles in canonical vertex order, finite.
+// Contract: the bytes of the tree depend on the triangles only, never on threads; depth <= kBvhMaxDepth.
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "ray/bvh_data.h"
+#include "ray/bvh_split.h"
+
+namespace spanray {
+namespace {
+
+using bvh::Box;
+using bvh::Range;
+using bvh::Ref;
+using bvh::Splitter;
+
+// From here on ranges are halved by count: 2^28 triangles need at most 9 more eight-wide levels, and 28 if they were binary.
+constexpr int kMedianDepth = kBvhMaxDepth - 30;
+
+struct PendingSubtree {
+  uint32_t node, slot;  // where its root's index goes
+  Range range;
+  int depth;
+};
+
+struct Tree {
+  std::vector<BvhNode> nodes;
+  std::vector<TriangleBlock> blocks;
+  int depth = 0;
+};
+
+Box triangle_box(const SceneData& scene, const Triangle& t) {
+  Box box = Box::empty();
+  for (const uint32_t v : t.vertex) {
+    const float* p = scene.vertices[v].position;
+    box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+  }
+  return box;
+}
+
+BvhNode empty_node() {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  BvhNode node;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < kBvhWidth; ++i) node.bounds[k][i] = inf, node.bounds[k + 3][i] = -inf;
+  std::fill(node.child, node.child + kBvhWidth, 0u);
+  return node;
+}
+
+class NodeBuilder {
+ public:
+  // With `pending`, ranges of at most kSubtreeSize are left to later tasks.
+  NodeBuilder(const SceneData& scene, const Ref* refs, const Splitter& splitter, std::vector<PendingSubtree>* pending)
+      : scene_(scene), refs_(refs), splitter_(splitter), pending_(pending) {}
+
+  uint32_t build(const Range& range, int depth) {
+    const uint32_t index = static_cast<uint32_t>(tree.nodes.size());
+    tree.nodes.push_back(empty_node());
+    tree.depth = std::max(tree.depth, depth);
+    Range part[kBvhWidth];
+    const int parts = open(range, depth, part);
+    for (int i = 0; i < parts; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        tree.nodes[index].bounds[k][i] = part[i].box.lo[k];
+        tree.nodes[index].bounds[k + 3][i] = part[i].box.hi[k];
+      }
+      if (part[i].leaf) {
+        tree.nodes[index].child[i] = leaf_child(add_block(part[i]), part[i].count());
+      } else if (pending_ != nullptr && part[i].count() <= bvh::kSubtreeSize) {
+        pending_->push_back({index, static_cast<uint32_t>(i), part[i], depth + 1});
+      } else {
+        const uint32_t child = build(part[i], depth + 1);  // may move tree.nodes
+        tree.nodes[index].child[i] = child;
+      }
+    }
+    return index;
+  }
+
+  Tree tree;
+
+ private:
+  int open(const Range& range, int depth, Range* part) {
+    const bool by_median = depth >= kMedianDepth;
+    part[0] = range;
+    int parts = 1;
+    while (parts < kBvhWidth) {
+      int widest = -1;
+      float widest_size = -1;
+      for (int i = 0; i < parts; ++i) {
+        if (part[i].leaf) continue;
+        const float size = by_median ? static_cast<float>(part[i].count()) : part[i].box.half_area();
+        if (size > widest_size) widest = i, widest_size = size;
+      }
+      if (widest < 0) break;
+      const Range opened = part[widest];
+      const uint32_t middle = splitter_.partition(opened);
+      std::copy_backward(part + widest + 1, part + parts, part + parts + 1);
+      part[widest] = splitter_.analyse(opened.begin, middle, by_median);
+      part[widest + 1] = splitter_.analyse(middle, opened.end, by_median);
+      ++parts;
+    }
+    // A range whose split was chosen on the last level before must not be opened by area below.
+    if (depth + 1 >= kMedianDepth)
+      for (int i = 0; i < parts; ++i) part[i].axis = -1, part[i].leaf = part[i].count() <= kBvhWidth;
+    return parts;
+  }
+
+  uint32_t add_block(const Range& range) {
+    TriangleBlock block{};
+    // By id, so that lanes do not depend on how the range was shuffled.
+    uint32_t ids[kBvhWidth];
+    for (uint32_t i = 0; i < range.count(); ++i) ids[i] = refs_[range.begin + i].primitive;
+    std::sort(ids, ids + range.count());
+    for (uint32_t i = 0; i < range.count(); ++i) {
+      const Triangle& t = scene_.triangles[ids[i]];
+      block.primitive[i] = ids[i];
+      for (int v = 0; v < 3; ++v)
+        for (int k = 0; k < 3; ++k) block.vertex[v][k][i] = scene_.vertices[t.vertex[v]].position[k];
+    }
+    tree.blocks.push_back(block);
+    return static_cast<uint32_t>(tree.blocks.size() - 1);
+  }
+
+  const SceneData& scene_;
+  const Ref* refs_;
+  const Splitter& splitter_;
+  std::vector<PendingSubtree>* pending_;
+};
+
+AlignedBuffer<Ref> collect_refs(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
+  AlignedBuffer<Ref> refs(scene.triangles.size());
+  size_t n = 0;
+  for (size_t i = 0; i < scene.triangles.size(); ++i)
+    if ((material_flags[material_of(scene.triangles[i])] & mask) == value) refs[n++].primitive = static_cast<uint32_t>(i);
+  refs.resize(n);
+  constexpr size_t kChunk = 16384;
+  parallel.for_each((n + kChunk - 1) / kChunk, [&](size_t c, int) {
+    for (size_t i = c * kChunk; i < std::min(n, (c + 1) * kChunk); ++i)
+      refs[i].box = triangle_box(scene, scene.triangles[refs[i].primitive]);
+  });
+  return refs;
+}
+
+// Lays the subtrees one after the other behind the top of the tree, in the order of their tasks.
+void assemble(const Tree& top, const std::vector<PendingSubtree>& pending, const std::vector<Tree>& subtrees, Parallel& parallel,
+              Bvh::Data& data) {
+  std::vector<uint32_t> node_base, block_base;
+  size_t nodes = top.nodes.size(), blocks = top.blocks.size();
+  data.depth = top.depth;
+  for (const Tree& t : subtrees) {
+    node_base.push_back(static_cast<uint32_t>(nodes)), block_base.push_back(static_cast<uint32_t>(blocks));
+    nodes += t.nodes.size(), blocks += t.blocks.size();
+    data.depth = std::max(data.depth, t.depth);
+  }
+  data.nodes.reserve(nodes), data.nodes.resize(nodes);
+  data.blocks.reserve(blocks), data.blocks.resize(blocks);
+  std::copy(top.nodes.begin(), top.nodes.end(), data.nodes.begin());
+  std::copy(top.blocks.begin(), top.blocks.end(), data.blocks.begin());
+  parallel.for_each(subtrees.size(), [&](size_t s, int) {
+    const Tree& t = subtrees[s];
+    for (size_t i = 0; i < t.nodes.size(); ++i) {
+      BvhNode& node = data.nodes[node_base[s] + i] = t.nodes[i];
+      for (int c = 0; c < kBvhWidth; ++c) {
+        if (!(node.bounds[0][c] <= node.bounds[3][c])) continue;
+        node.child[c] += (node.child[c] & kLeafBit) ? block_base[s] << 3 : node_base[s];
+      }
+    }
+    std::copy(t.blocks.begin(), t.blocks.end(), data.blocks.begin() + block_base[s]);
+  });
+  for (size_t s = 0; s < pending.size(); ++s) data.nodes[pending[s].node].child[pending[s].slot] = node_base[s];
+}
+
+}  // namespace
+
+Bvh::Bvh() : data_(std::make_unique<Data>()) {}
+Bvh::Bvh(Bvh&&) noexcept = default;
+Bvh& Bvh::operator=(Bvh&&) noexcept = default;
+Bvh::~Bvh() = default;
+size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
+size_t Bvh::primitive_count() const { return data_->primitives; }
+
+Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
+  Bvh bvh;
+  AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
+  const uint32_t n = static_cast<uint32_t>(refs.size());
+  Bvh::Data& data = *bvh.data_;
+  data.primitives = n;
+  if (n == 0) return bvh;
+
+  AlignedBuffer<Ref> scratch(n);
+  const Splitter splitter(refs.data(), scratch.data(), &parallel);
+  std::vector<PendingSubtree> pending;
+  NodeBuilder top(scene, refs.data(), splitter, &pending);
+  const Range root = splitter.analyse(0, n, false);
+  std::copy(root.box.lo, root.box.lo + 3, data.bounds_min);
+  std::copy(root.box.hi, root.box.hi + 3, data.bounds_max);
+  top.build(root, 1);
+
+  std::vector<Tree> subtrees(pending.size());
+  parallel.for_each(pending.size(), [&](size_t s, int) {
+    const Splitter serial(refs.data(), scratch.data(), nullptr);
+    NodeBuilder builder(scene, refs.data(), serial, nullptr);
+    builder.build(pending[s].range, pending[s].depth);
+    subtrees[s] = std::move(builder.tree);
+  });
+  assemble(top.tree, pending, subtrees, parallel, data);
+  return bvh;
+}
+
+}  // namespace spanray

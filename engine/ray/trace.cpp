@@ -1,0 +1,18 @@
+#include "ray/bvh.h"
+#include "ray/trace_kernel.h"
+
+namespace spanray {
+
+void trace_closest(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out) {
+  kTraceClosest[isa_index(frame.isa)](frame, bvh.data(), rays, out);
+}
+
+void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out) {
+  kTraceAny[isa_index(frame.isa)](frame, bvh.data(), rays, out);
+}
+
+void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, FragmentList& out) {
+  kTraceAll[isa_index(frame.isa)](frame, bvh.data(), rays, out);
+}
+
+}  // namespace spanray

@@ -1,0 +1,130 @@
+// What a hit is: the ray as every test sees it, and the triangle test that decides. Plain IEEE doubles, one triangle at a time; the
+// kernel's lanes only sort out triangles and nodes that this test would refuse.
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace spanray {
+
+inline constexpr float kLargestT = std::numeric_limits<float>::max();
+
+// One ray, with its direction scaled by a power of two so that the largest component is in [1, 2): exact, and then neither
+// reciprocals nor distances leave the range of float. All t below count in units of that direction.
+struct TraceRay {
+  float origin[3];
+  int kx, ky, kz;            // axes; the direction is largest along kz
+  double shear_x, shear_y;   // direction[kx] / direction[kz], direction[ky] / direction[kz]
+  double direction_z;        // scaled direction along kz, magnitude in [1, 2)
+  double t_max;
+  float inv_near[3], inv_far[3];  // see slab()
+  bool negative[3];          // the far plane of a box is its minimum
+};
+
+// False if the ray misses everything: zero or non-finite direction, non-finite origin, t_max negative or NaN.
+inline bool prepare_ray(const float origin[3], const float direction[3], float t_max, TraceRay& ray) {
+  float largest = 0;
+  ray.kz = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float size = std::fabs(direction[k]);
+    if (!(size <= kLargestT) || !(std::fabs(origin[k]) <= kLargestT)) return false;
+    if (size > largest) largest = size, ray.kz = k;
+    ray.origin[k] = origin[k];
+  }
+  if (!(largest > 0) || !(t_max >= 0)) return false;
+  ray.kx = ray.kz == 2 ? 0 : ray.kz + 1;
+  ray.ky = ray.kx == 2 ? 0 : ray.kx + 1;
+  // 2^-e, where largest = m * 2^e with m in [1, 2): floats are normal doubles, so this is exact.
+  const uint64_t exponent = std::bit_cast<uint64_t>(static_cast<double>(largest)) >> 52;
+  const double scale = std::bit_cast<double>((2046 - exponent) << 52);
+  ray.t_max = static_cast<double>(t_max) / scale;
+  for (int k = 0; k < 3; ++k) {
+    const double d = static_cast<double>(direction[k]) * scale;
+    ray.negative[k] = std::signbit(direction[k]);
+    // slab() rounds three times. The factors 1 -+ 4u make the near side an under- and the far side an overestimate (Ize 2013).
+    constexpr double kWiden = 4.0 / (1 << 24);
+    if (direction[k] == 0.0f) {
+      ray.inv_near[k] = ray.inv_far[k] = ray.negative[k] ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+    } else if (std::fabs(d) < 0x1p-126) {
+      ray.inv_near[k] = ray.inv_far[k] = std::numeric_limits<float>::quiet_NaN();  // no reciprocal: the axis never culls
+    } else {
+      ray.inv_near[k] = static_cast<float>(1.0 / d * (1.0 - kWiden));
+      ray.inv_far[k] = static_cast<float>(1.0 / d * (1.0 + kWiden));
+    }
+  }
+  ray.direction_z = static_cast<double>(direction[ray.kz]) * scale;
+  ray.shear_x = static_cast<double>(direction[ray.kx]) / static_cast<double>(direction[ray.kz]);
+  ray.shear_y = static_cast<double>(direction[ray.ky]) / static_cast<double>(direction[ray.kz]);
+  return true;
+}
+
+// Narrows [near, far] to where the ray is between the planes lo and hi of one axis, not less than exactly. Monotone: a box inside
+// another never gets a wider interval. A NaN (0 * inf: the origin lies on a plane that the ray runs along; or an axis
+// without a reciprocal) leaves the interval as it is.
+inline void slab(const TraceRay& ray, int k, float lo, float hi, float& near, float& far) {
+  const float n = ((ray.negative[k] ? hi : lo) - ray.origin[k]) * ray.inv_near[k];
+  const float f = ((ray.negative[k] ? lo : hi) - ray.origin[k]) * ray.inv_far[k];
+  near = n > near ? n : near;
+  far = f < far ? f : far;
+}
+
+// The least float that is not below t; t >= 0, at most kLargestT is returned.
+inline float round_up(double t) {
+  if (!(t < static_cast<double>(kLargestT))) return kLargestT;
+  const float f = static_cast<float>(t);
+  return static_cast<double>(f) < t ? std::bit_cast<float>(std::bit_cast<uint32_t>(f) + 1) : f;
+}
+
+// Coordinate k of vertex i of a triangle, vertices in canonical order.
+struct TriangleView {
+  const float* first;
+  int vertex_stride, axis_stride;
+  [[gnu::always_inline]] float operator()(int vertex, int axis) const { return first[vertex * vertex_stride + axis * axis_stride]; }
+};
+
+// Watertight ray-triangle test. On a hit sets t, in units of the scaled direction; 0 < t, t may exceed ray.t_max.
+// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; Pharr, Jakob, Humphreys, PBR 4th ed., 6.8.7.
+// Contract: unfused, so edge functions of a shared edge are exact opposites; their signs are right or the value is 0, and 0 counts as
+//           inside, so no ray passes between two triangles. Hits not provably in front of the origin are refused.
+//           t lies in the slab interval of the triangle's box, so no node around it can be culled before it.
+[[gnu::always_inline]] inline bool hit_triangle(const TraceRay& ray, const TriangleView& vertex, double& t) {
+  double x[3], y[3], z[3];
+  const double ox = ray.origin[ray.kx], oy = ray.origin[ray.ky], oz = ray.origin[ray.kz];
+  for (int i = 0; i < 3; ++i) {
+    z[i] = static_cast<double>(vertex(i, ray.kz)) - oz;
+    x[i] = (static_cast<double>(vertex(i, ray.kx)) - ox) - ray.shear_x * z[i];
+    y[i] = (static_cast<double>(vertex(i, ray.ky)) - oy) - ray.shear_y * z[i];
+  }
+  const double u = x[2] * y[1] - y[2] * x[1];
+  const double v = x[0] * y[2] - y[0] * x[2];
+  const double w = x[1] * y[0] - y[1] * x[0];
+  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
+  const double det = u + v + w;
+  if (det == 0) return false;
+
+  const double z_min = std::min(std::min(z[0], z[1]), z[2]), z_max = std::max(std::max(z[0], z[1]), z[2]);
+  const double z_hit = std::clamp((u * z[0] + v * z[1] + w * z[2]) / det, z_min, z_max);
+  const bool forward = ray.direction_z > 0;
+  if (forward ? z_min <= 0 : z_max >= 0) {
+    // Not wholly in front: is z_hit beyond its own error? Each x, y is off by at most 6 e M, each edge function by 40 e M (s + 8 e M).
+    constexpr double e = 0x1p-53;
+    double s = 0;
+    for (int i = 0; i < 3; ++i) s = std::max(s, std::max(std::fabs(x[i]), std::fabs(y[i])));
+    const double reach = std::max(std::fabs(z_min), std::fabs(z_max)), m = s + reach;
+    const double edge_error = 40 * e * m * (s + 8 * e * m);
+    if (!((forward ? z_hit : -z_hit) * std::fabs(det) > 3 * edge_error * reach + 8 * e * std::fabs(det) * reach)) return false;
+  }
+
+  float near = 0, far = kLargestT;
+  for (int k = 0; k < 3; ++k) {
+    const float a = vertex(0, k), b = vertex(1, k), c = vertex(2, k);
+    slab(ray, k, std::min(std::min(a, b), c), std::max(std::max(a, b), c), near, far);
+  }
+  if (near > far) return false;
+  t = std::clamp(z_hit / ray.direction_z, static_cast<double>(near), static_cast<double>(far));
+  return true;
+}
+
+}  // namespace spanray
