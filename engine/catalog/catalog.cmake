@@ -10,7 +10,11 @@
 set(SPANRAY_CATALOG_KINDS reflectance lights shading transparency)
 
 function(spanray_collect_catalog_kind source out kind)
-  file(GLOB formulas CONFIGURE_DEPENDS ${source}/${kind}/*.inl)
+  if(CMAKE_SCRIPT_MODE_FILE)
+    file(GLOB formulas ${source}/${kind}/*.inl)
+  else()
+    file(GLOB formulas CONFIGURE_DEPENDS ${source}/${kind}/*.inl)
+  endif()
   set(last -1)
   foreach(formula ${formulas})
     get_filename_component(name ${formula} NAME_WE)

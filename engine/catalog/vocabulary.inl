@@ -19,10 +19,12 @@ template <class F> SPANRAY_FORMULA F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));
 }
 template <class F> SPANRAY_FORMULA F length(const Vec3<F>& a) { return sqrt_(dot(a, a)); }
-// a / length, and zero where the length is zero: a direction that does not exist lights nothing.
+// Lengths below this count as zero: their squares are subnormal, so they have lost digits.
+inline constexpr float kMinLength = 0x1p-62f;
+// a / length, and zero where the length is: a direction that does not exist lights nothing.
 template <class F> SPANRAY_FORMULA Vec3<F> divide_or_zero(const Vec3<F>& a, F length) {
   const F zero = number<F>(0.0f);
-  const auto exists = length > zero;
+  const auto exists = length >= number<F>(kMinLength);
   return {select(exists, a.x / length, zero), select(exists, a.y / length, zero), select(exists, a.z / length, zero)};
 }
 

@@ -87,6 +87,7 @@ struct Parallel::Impl {
 
 Parallel::Parallel(int threads) : impl_(std::make_unique<Impl>(threads > 0 ? threads : processors())) {}
 Parallel::~Parallel() = default;
+int Parallel::available() { return processors(); }
 int Parallel::threads() const { return impl_->threads; }
 
 void Parallel::for_each(size_t count, const std::function<void(size_t, int)>& body) {

@@ -17,6 +17,8 @@ class Parallel {
   Parallel& operator=(const Parallel&) = delete;
 
   int threads() const;
+  // Processors that this process may use.
+  static int available();
   // Calls body(index, worker) once for every index in [0, count), in no order, 0 <= worker < threads(); calls with the same
   // worker never overlap. Returns when all are done. An exception of a body is rethrown here.
   void for_each(size_t count, const std::function<void(size_t index, int worker)>& body);

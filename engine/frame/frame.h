@@ -13,7 +13,7 @@ namespace spanray {
 // What the frame needs, each with its reason (render/plan.cpp fills it; `spanray info` prints it). A stage whose flag is off
 // allocates nothing and runs nothing.
 struct PlanFlags {
-  bool bvh = false, translucent_bvh = false;
+  bool raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
   bool textures = false, bump = false, lit_vertices = false, emission = false, ambient = false, specular = false;
 };

@@ -32,6 +32,9 @@ struct RayBatch {
   AlignedBuffer<uint32_t> pixel;     // the pixel that started the ray: the screen-door mask, and where results go
   AlignedBuffer<float> origin_dx[3], origin_dy[3], direction_dx[3], direction_dy[3];  // empty without differentials
   int count = 0;
+  // True for rays through the centers of `pixel`: shade/ then takes Frame::primary instead of these rounded numbers, so that
+  // accept(hit) and the surfaces are those of the rasterizer, bit for bit.
+  bool primary = false;
 
   void resize(int n, bool with_differentials) {
     count = n;
@@ -40,6 +43,13 @@ struct RayBatch {
       if (with_differentials) origin_dx[k].resize(n), origin_dy[k].resize(n), direction_dx[k].resize(n), direction_dy[k].resize(n);
     }
     t_max.resize(n), pixel.resize(n);
+  }
+  size_t memory_bytes() const {
+    size_t bytes = t_max.bytes() + pixel.bytes();
+    for (int k = 0; k < 3; ++k)
+      bytes += origin[k].bytes() + direction[k].bytes() + origin_dx[k].bytes() + origin_dy[k].bytes() + direction_dx[k].bytes() +
+               direction_dy[k].bytes();
+    return bytes;
   }
 };
 
@@ -58,6 +68,7 @@ struct HitBatch {
     pixel.resize(n), primitive.resize(n);
     if (with_ray) ray.resize(n);
   }
+  size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes() + instance.bytes(); }
 };
 
 }  // namespace spanray

@@ -27,6 +27,7 @@ struct ScreenVertices {
   AlignedBuffer<double> x, y, w;          // X, Y, W; pixel = X / W, Y / W
   AlignedBuffer<int32_t> x_24_8, y_24_8;  // snapped pixel position; only valid where outcode == 0
   AlignedBuffer<uint16_t> outcode;        // kOut* bits
+  size_t memory_bytes() const { return x.bytes() + y.bytes() + w.bytes() + x_24_8.bytes() + y_24_8.bytes() + outcode.bytes(); }
 };
 enum Outcode : uint16_t {
   kOutNear = 1,                                                       // w < near
@@ -60,6 +61,13 @@ struct BinChunk {
 struct TileBins {
   TileGrid grid;
   std::vector<BinChunk> chunks;
+  size_t memory_bytes() const {
+    size_t bytes = 0;
+    for (const BinChunk& c : chunks)
+      bytes += c.triangles.bytes() + c.opaque.bytes() + c.translucent.bytes() +
+               (c.opaque_start.capacity() + c.translucent_start.capacity()) * sizeof(uint32_t);
+    return bytes;
+  }
 };
 
 // The visibility buffer of one tile: row-major kTileSize x kTileSize, also where the picture ends inside the tile.
@@ -72,6 +80,7 @@ struct TileHits {
 struct FragmentList {
   AlignedBuffer<uint32_t> pixel, ray, primitive;
   void clear() { pixel.clear(), ray.clear(), primitive.clear(); }
+  size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes(); }
 };
 
 }  // namespace spanray

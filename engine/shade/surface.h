@@ -7,12 +7,13 @@
 namespace spanray {
 
 // Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
+// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror) are 0.
 struct SurfaceBatch {
   int count = 0;
   float* position[3];          // on the original triangle, weights clamped to it
-  float* position_error;       // bound on the error of each coordinate of position, world units
+  float* position_error;       // bound on the distance of position from the triangle, each coordinate, world units (resolve-inl.h)
   float* geometric_normal[3];  // unit, toward the ray's origin
-  float* normal[3];            // shading normal: interpolated, bumped; unit, in the hemisphere of geometric_normal
+  float* normal[3];            // shading normal: interpolated, bumped; unit, clamped to the hemisphere of geometric_normal
   float* view[3];              // unit, toward the ray's origin
   float* t;                    // in units of the ray's direction; for primary rays the view depth
   float* weight[3];            // barycentric, sum 1 within rounding, each in [0, 1]

@@ -1,8 +1,8 @@
 // A point light: radiant intensity in W/sr, falling off with a polynomial of the distance.
 // index: 0
 // Source:   OpenGL 1.x lighting (constant, linear, quadratic attenuation); kc = kl = 0, kq = 1 is the inverse square law.
-// Contract: attenuation is at most 1 / kMinAttenuation, wherever the light is (HARD-CASES S3); a point in the light itself has no
-//           direction to it and gets nothing; finite for all finite input.
+// Contract: attenuation is at most 1 / kMinAttenuation, wherever the light is (HARD-CASES S3); a point in the light itself (within
+//           kMinLength) has no direction to it and gets nothing; finite for all finite input.
 namespace lights::point {
 template <class F> SPANRAY_FORMULA Incidence<F> incidence(const LightLanes<F>& light, const Vec3<F>& position) {
   const Vec3<F> to_light = light.position - position;

@@ -1,0 +1,46 @@
+#include "render/frame_stats.h"
+
+namespace spanray {
+
+void resize_output(const Settings& s, const FrameRequest& request, Framebuffer& out) {
+  const size_t pixels = static_cast<size_t>(s.width) * static_cast<size_t>(s.height);
+  out.color.width = s.width;
+  out.color.height = s.height;
+  out.color.rgba.resize(4 * pixels);
+  out.radiance.resize(request.radiance ? 3 * pixels : 0);
+  out.depth.resize(request.depth ? pixels : 0);
+  out.primitive.resize(request.primitive ? pixels : 0);
+}
+
+void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, int threads, FrameCounts& counts, FrameStats& stats) {
+  double* const ms[kTileStageCount] = {&stats.ms.raster,      &stats.ms.shade,     &stats.ms.shadow_rays,
+                                       &stats.ms.bounce_rays, &stats.ms.composite, &stats.ms.encode};
+  for (const auto& w : workers) {
+    for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->seconds[i] * 1e3 / threads;
+    counts.pixels_covered += w->counts.pixels_covered;
+    counts.fragments_translucent += w->counts.fragments_translucent;
+    counts.rays_primary += w->counts.rays_primary;
+    counts.rays_shadow += w->counts.rays_shadow;
+    counts.rays_bounce += w->counts.rays_bounce;
+    counts.rays_translucent += w->counts.rays_translucent;
+  }
+}
+
+void add_counts(const FrameCounts& c, FrameStats& stats) {
+  stats.counts = {{"triangles_in", c.triangles_in},
+                  {"triangles_invalid", c.triangles_invalid},
+                  {"triangles_clipped", c.triangles_clipped},
+                  {"triangles_culled", c.triangles_culled},
+                  {"triangles_drawn", c.triangles_drawn},
+                  {"pixels_covered", c.pixels_covered},
+                  {"fragments_translucent", c.fragments_translucent},
+                  {"rays_primary", c.rays_primary},
+                  {"rays_shadow", c.rays_shadow},
+                  {"rays_bounce", c.rays_bounce},
+                  {"rays_translucent", c.rays_translucent},
+                  {"vertices_lit", c.vertices_lit}};
+  if (c.triangles_invalid > 0)
+    stats.warnings.push_back(std::to_string(c.triangles_invalid) + " triangles were dropped: their projection is not finite");
+}
+
+}  // namespace spanray

@@ -1,0 +1,108 @@
+#include "render/plan.h"
+
+#include <algorithm>
+
+#include "frame/transparency.h"
+
+namespace spanray {
+namespace {
+
+// How many used materials ask for what, settings not yet considered.
+struct Wants {
+  int masked = 0, translucent = 0, mirror = 0, textured = 0, bumped = 0, emissive = 0, ambient = 0, specular = 0;
+};
+
+bool nonzero(const float* rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; }
+
+Wants find_wants(const SceneData& scene, const SceneUse& use, const std::vector<uint32_t>& material_flags) {
+  Wants w;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!use.material_used[i]) continue;
+    const Material& m = scene.materials[i];
+    w.masked += (material_flags[i] & kMaterialMasked) != 0;
+    w.translucent += (material_flags[i] & kMaterialTranslucent) != 0;
+    // Translucent surfaces start no mirror rays (docs/decisions/0003-transparency.md).
+    w.mirror += nonzero(m.mirror) && (material_flags[i] & kMaterialTranslucent) == 0;
+    w.textured += m.map_ambient >= 0 || m.map_diffuse >= 0 || m.map_specular >= 0 || m.map_shininess >= 0 || m.map_emission >= 0 ||
+                  m.map_opacity >= 0;
+    w.bumped += m.map_bump >= 0 || m.map_normal >= 0;
+    w.emissive += nonzero(m.emission);
+    w.ambient += nonzero(m.ambient);
+    w.specular += nonzero(m.specular);
+  }
+  return w;
+}
+
+std::string materials_text(int n, const char* what) {
+  return std::to_string(n) + (n == 1 ? " material " : " materials ") + what;
+}
+
+class Lines {
+ public:
+  explicit Lines(std::vector<PlanLine>& lines) : lines_(lines) {}
+  // needed = enabled by the settings and wanted by the scene; the reason names whichever decides.
+  bool add(const char* stage, bool enabled, const char* disabled_reason, int wanted, const std::string& yes, const char* no) {
+    const bool needed = enabled && wanted > 0;
+    lines_.push_back({stage, needed, !enabled ? disabled_reason : wanted > 0 ? yes : no});
+    return needed;
+  }
+
+ private:
+  std::vector<PlanLine>& lines_;
+};
+
+}  // namespace
+
+SceneUse find_scene_use(const SceneData& scene) {
+  SceneUse use;
+  use.material_used.assign(scene.materials.size(), false);
+  use.any_triangle = !scene.triangles.empty();
+  for (const Triangle& t : scene.triangles) use.material_used[material_of(t)] = true;
+  return use;
+}
+
+Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
+  Plan plan;
+  plan.material_flags.reserve(scene.materials.size());
+  for (const Material& m : scene.materials) plan.material_flags.push_back(material_flags(m, s));
+  const Wants w = find_wants(scene, use, plan.material_flags);
+  const int lights = static_cast<int>(scene.lights.size());
+  const bool lit = lights > 0 && use.any_triangle;
+  const bool raster = s.visibility == Visibility::kRaster;
+  PlanFlags& f = plan.flags;
+  Lines lines(plan.lines);
+
+  f.raster = lines.add("transform, clip, bin, raster", raster, "visibility is by rays", use.any_triangle,
+                       "visibility is by rasterization", "the scene has no triangle");
+  f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_triangle, "visibility is by rays",
+                             "the scene has no triangle");
+  f.masks = lines.add("accept masks", true, "", w.masked, materials_text(w.masked, "masked: alpha mask or screen-door"),
+                      "no material is masked");
+  f.lit_vertices = lines.add("lit vertices", s.shading == Shading::kGouraud, "shading is not Gouraud", lit,
+                             "Gouraud shading: vertices of visible triangles are lit once", "nothing is lit");
+  f.textures = lines.add("textures", s.textures, "switched off", w.textured, materials_text(w.textured, "with color or value maps"),
+                         "no material has one");
+  f.bump = lines.add("bump", s.bump && s.shading == Shading::kPhong, s.bump ? "only Phong shading bends normals" : "switched off",
+                     w.bumped, materials_text(w.bumped, "with a height or normal map"), "no material has one");
+  f.ambient = lines.add("ambient", true, "", nonzero(scene.ambient_radiance) ? w.ambient : 0, "the scene has ambient light",
+                        "no ambient light, or no material that reflects it");
+  f.emission = lines.add("emission", true, "", w.emissive, materials_text(w.emissive, "that emit"), "no material emits");
+  lines.add("direct light", true, "", lit ? lights : 0, std::to_string(lights) + (lights == 1 ? " light" : " lights"),
+            lights == 0 ? "the scene has no light" : "the scene has no triangle");
+  f.specular = lines.add("specular", true, "", lit ? w.specular : 0, materials_text(w.specular, "with a highlight"),
+                         "no lit material has a highlight");
+  f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
+                            "every light casts ray-traced shadows", "nothing is lit");
+  f.bounces = lines.add("bounce rays", s.reflections == Reflections::kRay && s.max_bounces > 0, "switched off", w.mirror,
+                        materials_text(w.mirror, "mirrored, up to ") + std::to_string(s.max_bounces) + " bounces",
+                        "no material mirrors");
+  f.translucents = lines.add("composite", true, "", w.translucent, materials_text(w.translucent, "blended by alpha"),
+                             "no material is translucent");
+  f.bvh = lines.add("BVH", f.shadow_rays || f.bounces || f.primary_rays, "no ray is traced", use.any_triangle, "rays are traced",
+                    "the scene has no triangle");
+  f.translucent_bvh = lines.add("translucent BVH", f.translucents, "no material is translucent", f.bounces || f.primary_rays,
+                                "rays see translucent surfaces", "only the rasterizer sees translucent surfaces");
+  return plan;
+}
+
+}  // namespace spanray

@@ -1,0 +1,256 @@
+// The loop of a tile. Read render_tile first, then shade_levels: the order there is the order of the renderer.
+#include "render/tile.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "frame/ladder.h"
+#include "image/encode.h"
+#include "raster/raster.h"
+#include "render/tile_ladder.h"
+#include "render/tile_light.h"
+
+namespace spanray {
+namespace {
+
+// Rows of slots shaded at once: their surfaces fit the second-level cache.
+constexpr int kChunkRows = 16;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// The part of a tile that is shaded at once.
+struct Chunk {
+  int tile, x0, columns, y0, y1;
+};
+
+// Primary rays of the engine that traces, rounded to float. Shading does not use them: it takes the exact ones.
+void make_primary_batch(const Frame& frame, Level& level) {
+  const PrimaryRays& p = frame.primary;
+  level.rays.resize(level.slots, false);
+  for (int i = 0; i < level.slots; ++i) {
+    const double x = (level.pixel[i] & 0xffff) + 0.5, y = (level.pixel[i] >> 16) + 0.5;
+    const glm::dvec3 d = p.corner + p.step_x * x + p.step_y * y;
+    const glm::dvec3 o = p.eye + d * p.near_plane;  // t counts view depth: rays start at the near plane
+    for (int k = 0; k < 3; ++k) {
+      level.rays.origin[k][i] = static_cast<float>(o[k]);
+      level.rays.direction[k][i] = static_cast<float>(d[k]);
+    }
+    level.rays.t_max[i] = kInfinity;
+    level.rays.pixel[i] = level.pixel[i];
+  }
+}
+
+void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
+  const StageTimer timer(w, TileStage::kRaster);
+  if (job.bins != nullptr) {
+    const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
+    for (int i = 0; i < level.slots; ++i)
+      level.primitive[i] = w.visible.primitive[(row0 + i / chunk.columns) * kTileSize + i % chunk.columns];
+  } else if (job.frame.plan.primary_rays) {
+    make_primary_batch(job.frame, level);
+    trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
+    w.counts.rays_primary += static_cast<uint64_t>(level.slots);
+  } else {
+    std::fill_n(level.primitive.data(), level.slots, kNoPrimitive);
+  }
+}
+
+// The slots that hit something, as a batch: shading works on these only.
+void compact_hits(Level& level, bool primary) {
+  int n = 0;
+  level.hits.resize(level.slots, true);
+  level.slot_of_hit.resize(static_cast<size_t>(level.slots));
+  for (int i = 0; i < level.slots; ++i) {
+    if (level.primitive[i] == kNoPrimitive) continue;
+    level.hits.pixel[n] = level.pixel[i];
+    level.hits.ray[n] = static_cast<uint32_t>(i);
+    level.hits.primitive[n] = level.primitive[i];
+    level.slot_of_hit[n++] = static_cast<uint32_t>(i);
+  }
+  level.hits.resize(n, true);
+  level.hits.rays = primary ? nullptr : &level.rays;
+}
+
+// Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others.
+void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
+  {
+    const StageTimer timer(w, TileStage::kShade);
+    compact_hits(level, primary);
+    resolve_surfaces(job.frame, level.hits, level.surfaces);
+  }
+  light_surfaces(job, w, level.surfaces, level.hits, primary);
+  const StageTimer timer(w, TileStage::kShade);
+  for (int c = 0; c < 3; ++c) std::fill_n(level.radiance[c].data(), level.slots, job.frame.scene->background[c]);
+  std::fill_n(level.opaque_t.data(), level.slots, kInfinity);
+  for (int i = 0; i < level.hits.count; ++i) {
+    const uint32_t slot = level.slot_of_hit[i];
+    for (int c = 0; c < 3; ++c) level.radiance[c][slot] = w.radiance[c][i];
+    level.opaque_t[slot] = level.surfaces.t[i];
+  }
+}
+
+// The tile's rasterized fragments that lie in this chunk, with their slots.
+void pick_fragments(const Chunk& chunk, TileWorker& w) {
+  const StageTimer timer(w, TileStage::kRaster);
+  FragmentList& list = w.chunk_fragments;
+  for (size_t i = 0; i < w.fragments.pixel.size(); ++i) {
+    const int x = static_cast<int>(w.fragments.pixel[i] & 0xffff), y = static_cast<int>(w.fragments.pixel[i] >> 16);
+    if (y < chunk.y0 || y >= chunk.y1) continue;
+    list.pixel.push_back(w.fragments.pixel[i]);
+    list.ray.push_back(0);
+    list.primitive.push_back(w.fragments.primitive[i]);
+    w.fragment_slot.push_back((y - chunk.y0) * chunk.columns + (x - chunk.x0));
+  }
+}
+
+// The translucent surfaces that the level's rays pass through, with their slots.
+void trace_fragments(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
+  const StageTimer timer(w, TileStage::kBounceRays);
+  // A little beyond the opaque hit, since t of the tracer and t of resolve round differently; composite decides by the latter.
+  const float start = primary ? static_cast<float>(job.frame.primary.near_plane) : 0.0f;
+  for (int i = 0; i < level.slots; ++i) level.rays.t_max[i] = (level.opaque_t[i] - start) * 1.00001f;
+  trace_all(job.frame, *job.translucent, level.rays, w.chunk_fragments);
+  w.counts.rays_translucent += static_cast<uint64_t>(level.slots);
+  for (const uint32_t ray : w.chunk_fragments.ray) w.fragment_slot.push_back(static_cast<int32_t>(ray));
+}
+
+void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bool primary, const Chunk& chunk) {
+  std::fill_n(level.transmittance.data(), level.slots, 1.0f);
+  w.chunk_fragments.clear();
+  w.fragment_slot.clear();
+  if (primary && job.bins != nullptr)
+    pick_fragments(chunk, w);
+  else
+    trace_fragments(job, w, level, primary);
+  const FragmentList& list = w.chunk_fragments;
+  const int n = static_cast<int>(list.primitive.size());
+  if (n == 0) return;
+  w.counts.fragments_translucent += static_cast<uint64_t>(n);
+  {
+    const StageTimer timer(w, TileStage::kComposite);
+    HitBatch& hits = w.fragment_hits;
+    hits.resize(n, true);
+    std::copy_n(list.pixel.data(), n, hits.pixel.data());
+    std::copy_n(list.ray.data(), n, hits.ray.data());
+    std::copy_n(list.primitive.data(), n, hits.primitive.data());
+    hits.rays = primary ? nullptr : &level.rays;
+    resolve_surfaces(job.frame, hits, w.fragment_surfaces);
+  }
+  light_surfaces(job, w, w.fragment_surfaces, w.fragment_hits, primary);
+  const StageTimer timer(w, TileStage::kComposite);
+  const float* fragment_radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
+  float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
+  composite(w.fragment_surfaces, w.fragment_slot.data(), fragment_radiance, level.opaque_t.data(), level.slots, radiance,
+            level.transmittance.data());
+}
+
+// The next level: one slot for each mirror ray. Returns false if there is none.
+bool start_bounce(const FrameJob& job, TileWorker& w, Level& level, Level& next) {
+  const StageTimer timer(w, TileStage::kBounceRays);
+  next.rays.count = 0;
+  w.surface_of_ray.clear();
+  make_bounce_rays(job.frame, level.surfaces, level.hits, next.rays, w.surface_of_ray);
+  const int n = next.rays.count;
+  if (n == 0) return false;
+  next.resize(n, job.frame.plan.translucents);
+  for (int i = 0; i < n; ++i) {
+    const uint32_t surface = w.surface_of_ray[i], slot = level.slot_of_hit[surface];
+    const float through = job.frame.plan.translucents ? level.transmittance[slot] : 1.0f;
+    next.pixel[i] = next.rays.pixel[i];
+    next.parent[i] = slot;
+    for (int c = 0; c < 3; ++c) next.weight[c][i] = level.surfaces.mirror[c][surface] * through;
+  }
+  trace_closest(job.frame, *job.opaque, next.rays, next.primitive.data());
+  w.counts.rays_bounce += static_cast<uint64_t>(n);
+  return true;
+}
+
+// One level after the other; then the bounces' radiance comes back, last first.
+void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
+  size_t k = 0;
+  for (;; ++k) {
+    const bool primary = k == 0;
+    Level& level = *w.levels[k];
+    shade_opaque(job, w, level, primary);
+    if (job.request.ladder != nullptr) mix_surfaces(*job.request.ladder, level.surfaces);
+    if (job.frame.plan.translucents) composite_translucents(job, w, level, primary, chunk);
+    if (!job.frame.plan.bounces || k == static_cast<size_t>(job.frame.settings.max_bounces)) break;
+    if (w.levels.size() == k + 1) w.levels.push_back(std::make_unique<Level>());
+    if (!start_bounce(job, w, level, *w.levels[k + 1])) break;
+  }
+  for (; k > 0; --k) {
+    const Level& from = *w.levels[k];
+    Level& to = *w.levels[k - 1];
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < from.slots; ++i) to.radiance[c][from.parent[i]] += from.weight[c][i] * from.radiance[c][i];
+  }
+}
+
+// Radiance of a chunk -> bytes, and the arrays that the caller asked for.
+void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
+  const StageTimer timer(w, TileStage::kEncode);
+  for (int y = chunk.y0; y < chunk.y1; ++y) {
+    const size_t slot = static_cast<size_t>((y - chunk.y0) * chunk.columns);
+    const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.frame.grid.width) + static_cast<size_t>(chunk.x0);
+    const float* radiance[3] = {level.radiance[0].data() + slot, level.radiance[1].data() + slot, level.radiance[2].data() + slot};
+    encode_row(job.frame.isa, radiance, chunk.columns, job.out.color.rgba.data() + 4 * pixel);
+    for (size_t i = 0; i < static_cast<size_t>(chunk.columns); ++i) {
+      if (job.request.radiance)
+        for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = radiance[c][i];
+      // t of a miss is infinite: its depth is 0, the background's.
+      if (job.request.depth) job.out.depth[pixel + i] = static_cast<float>(job.frame.primary.near_plane) / level.opaque_t[slot + i];
+      if (job.request.primitive) job.out.primitive[pixel + i] = level.primitive[slot + i];
+    }
+  }
+  if (job.request.ladder != nullptr) mix_chunk(*job.request.ladder, job, level);
+}
+
+}  // namespace
+
+void render_tile(const FrameJob& job, int tile, TileWorker& w) {
+  const TileGrid& grid = job.frame.grid;
+  if (job.bins != nullptr) {
+    const StageTimer timer(w, TileStage::kRaster);
+    rasterize_tile(job.frame, *job.bins, tile, w.visible);
+    w.fragments.clear();
+    if (job.frame.plan.translucents) rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.fragments);
+  }
+  if (w.levels.empty()) w.levels.push_back(std::make_unique<Level>());
+  Level& level = *w.levels[0];
+  for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += kChunkRows) {
+    const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + kChunkRows, grid.y1(tile))};
+    level.resize(chunk.columns * (chunk.y1 - y0), job.frame.plan.translucents);
+    for (int i = 0; i < level.slots; ++i)
+      level.pixel[i] = pack_pixel(static_cast<uint32_t>(chunk.x0 + i % chunk.columns), static_cast<uint32_t>(y0 + i / chunk.columns));
+    find_primary_hits(job, chunk, w, level);
+    shade_levels(job, w, chunk);
+    w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
+    write_chunk(job, w, level, chunk);
+  }
+}
+
+void Level::resize(int n, bool translucents) {
+  slots = n;
+  const size_t size = static_cast<size_t>(n);
+  pixel.resize(size), primitive.resize(size), opaque_t.resize(size), parent.resize(size);
+  if (translucents) transmittance.resize(size);
+  for (int c = 0; c < 3; ++c) radiance[c].resize(size), weight[c].resize(size);
+}
+
+size_t Level::memory_bytes() const {
+  size_t bytes = rays.memory_bytes() + pixel.bytes() + primitive.bytes() + opaque_t.bytes() + transmittance.bytes() + parent.bytes() +
+                 slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes();
+  for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + weight[c].bytes();
+  return bytes;
+}
+
+size_t TileWorker::memory_bytes() const {
+  size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
+                 surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
+                 fragment_surfaces.memory_bytes();
+  for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes();
+  for (const auto& level : levels) bytes += level->memory_bytes();
+  return bytes;
+}
+
+}  // namespace spanray

@@ -1,0 +1,68 @@
+// One tile, from visibility to bytes: the loop of DESIGN 1. Everything a tile makes lives in the worker that makes it.
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "frame/frame.h"
+#include "ray/bvh.h"
+#include "shade/light.h"
+#include "shade/surface.h"
+#include "spanray/render.h"
+
+namespace spanray {
+
+// Stages inside a tile that are timed.
+enum class TileStage { kRaster, kShade, kShadowRays, kBounceRays, kComposite, kEncode };
+inline constexpr int kTileStageCount = 6;
+
+// What a set of rays of one kind sees and sends back: level 0 are primary rays, level k the rays of the k-th bounce.
+// A *slot* is one ray of the level: a pixel of the chunk at level 0.
+struct Level {
+  RayBatch rays;                       // levels above 0, and level 0 when visibility is by rays
+  AlignedBuffer<uint32_t> pixel;       // by slot
+  AlignedBuffer<uint32_t> primitive;   // by slot: opaque hit
+  AlignedBuffer<float> radiance[3];    // by slot
+  AlignedBuffer<float> opaque_t;       // by slot: infinity for misses
+  AlignedBuffer<float> transmittance;  // by slot, of the translucent layers; only if the frame has some
+  AlignedBuffer<uint32_t> parent;      // by slot: slot of the level before
+  AlignedBuffer<float> weight[3];      // by slot: what its radiance is multiplied by there
+  HitBatch hits;                       // the slots that hit, compacted
+  AlignedBuffer<uint32_t> slot_of_hit;
+  SurfaceBatch surfaces;
+  int slots = 0;
+
+  void resize(int n, bool translucents);
+  size_t memory_bytes() const;
+};
+
+struct TileWorker {
+  TileHits visible;
+  FragmentList fragments, chunk_fragments;
+  std::vector<std::unique_ptr<Level>> levels;
+  // Scratch of one batch being lit.
+  RayBatch shadow_rays;
+  AlignedBuffer<uint32_t> surface_of_ray, occluded, lit;
+  AlignedBuffer<float> radiance[3];
+  HitBatch fragment_hits;
+  AlignedBuffer<int32_t> fragment_slot;
+  SurfaceBatch fragment_surfaces;
+  FrameCounts counts;
+  std::array<double, kTileStageCount> seconds{};
+  size_t memory_bytes() const;
+};
+
+// What all tiles of a frame read, and where they write: each pixel belongs to one tile, each tile to one task.
+struct FrameJob {
+  const Frame& frame;
+  const TileBins* bins = nullptr;  // visibility by rasterization
+  const Bvh* opaque = nullptr;     // shadow, bounce and primary rays
+  const Bvh* translucent = nullptr;
+  LitVertexCache* lit_vertices = nullptr;
+  Framebuffer& out;
+  const FrameRequest& request;
+};
+
+void render_tile(const FrameJob& job, int tile, TileWorker& worker);
+
+}  // namespace spanray

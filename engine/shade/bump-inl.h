@@ -1,0 +1,107 @@
+// Perturbed normals: height maps (map_bump) and tangent-space normal maps (norm). Include inside a *_kernel.cpp.
+#if defined(SPANRAY_BUMP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_BUMP_INL_H_
+#undef SPANRAY_BUMP_INL_H_
+#else
+#define SPANRAY_BUMP_INL_H_
+#endif
+
+#include "shade/texture-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+namespace surface_lanes {
+
+// Cosine to the geometric normal that a shading normal is clamped to.
+inline constexpr float kHorizonCosine = 0x1p-10f;
+
+struct TangentLanes {
+  V3f u, v;    // unit, along growing s and t of the texture (v up), orthogonal to the normal
+  Mask valid;  // false where the triangle has no area in space or uv, or the normal lies in a tangent
+};
+
+// The part of the gradient orthogonal to n, as a unit vector; direction < 0 where the use mirrors the texture.
+HWY_INLINE V3f tangent(const V3d& gradient, F32 direction, const V3f& n, Mask* valid) {
+  const V3f zero{F32::zero(), F32::zero(), F32::zero()};
+  const V3f along = unit_or(gradient, zero);  // in double first: gradients of tiny triangles have no square in float
+  const V3f flat = unit_or(along - n * dot(along, n), 0x1p-20f, zero);
+  *valid = *valid & (dot(flat, flat) > F32::zero());
+  return select(direction < F32::zero(), -flat, flat);
+}
+
+HWY_INLINE TangentLanes make_tangents(const SceneData& scene, const UseLanes& use, const UvLanes& uv, const V3f& n) {
+  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
+  TangentLanes t;
+  t.valid = (f64(0.0) < uv.area) | (uv.area < f64(0.0));
+  t.u = tangent(uv.gradient_u, gather(reals, use.record + i32(kUseScale)), n, &t.valid);
+  t.v = tangent(uv.gradient_v, gather(reals, use.record + i32(kUseScale + 1)), n, &t.valid);
+  return t;
+}
+
+struct SlopeLanes { F32 s, t; };
+
+// Raw height difference over one texel of `level`, per texel of level 0.
+[[maybe_unused]] static HWY_NOINLINE SlopeLanes level_slope(const SceneData& scene, const UseLanes& use, I32 level) {
+  const auto height = [&](int dx, int dy) HWY_ATTR {
+    return choose_channel(scene, use, sample_level(scene, use, level, false, dx, dy));
+  };
+  const F32 shrink = float_from_bits(shift_left<23>(i32(127) - level));
+  return {(height(128, 0) - height(-128, 0)) * shrink, (height(0, -128) - height(0, 128)) * shrink};  // rows go down, t up
+}
+
+// n' = normalize(n - bm * (dh/ds * T + dh/dt * B)).
+// Source:   Blinn 1978, "Simulation of Wrinkled Surfaces", with slopes per texel, free of world units: a step of height 1 over
+//           one texel of level 0 is a slope of 1 for bm = 1. Differences are central, of bilinear samples half a texel to
+//           either side, on the level of the footprint; trilinear blends the slopes of two levels.
+// Contract: exactly n where the slope or bm is 0, or where there is no tangent.
+HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
+  const LevelLanes levels = choose_levels(scene, use, filter);
+  SlopeLanes slope = level_slope(scene, use, levels.level);
+  if (levels.blend) {
+    const SlopeLanes far_slope = level_slope(scene, use, levels.next);
+    slope.s = mul_add(levels.weight, far_slope.s - slope.s, slope.s);
+    slope.t = mul_add(levels.weight, far_slope.t - slope.t, slope.t);
+  }
+  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
+  const F32 gain = gather(reals, use.record + i32(kUseGain));
+  const F32 bm = gather(reals, use.record + i32(kUseMultiplier));
+  const F32 scale = (gain * f32(kRawToUnit)) * bm;
+  const F32 limit = f32(0x1p20f);  // steeper is vertical
+  const F32 s = clamp_(slope.s * scale, -limit, limit), t = clamp_(slope.t * scale, -limit, limit);
+  const TangentLanes frame = make_tangents(scene, use, uv, n);
+  const V3f bumped = unit_or(n - frame.u * s - frame.v * t, 1e-12f, n);
+  const Mask flat = (s == F32::zero()) & (t == F32::zero());
+  return select(use.active & frame.valid & !flat, bumped, n);
+}
+
+// n' = normalize(x T + y B + z N), the map's y up (the OpenGL convention). A channel c of 8 bits means (c - 128) / 127, so that
+// 128 is exactly flat; -bm scales x and y.
+HWY_INLINE V3f apply_normal_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
+  const RawSample raw = sample(scene, use, filter);
+  const F32 middle = f32(128 * 257 * 256), unit = f32(1.0f / (127 * 257 * 256)), one = f32(1.0f);
+  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
+  const F32 bm = gather(reals, use.record + i32(kUseMultiplier));
+  const auto decode = [&](int c) HWY_ATTR { return clamp_((raw.c[c] - middle) * unit, -one, one); };
+  const F32 x = decode(0) * bm, y = decode(1) * bm, z = decode(2);
+  const TangentLanes frame = make_tangents(scene, use, uv, n);
+  const V3f bumped = unit_or(frame.u * x + frame.v * y + n * z, 1e-12f, n);
+  const Mask flat = (x == F32::zero()) & (y == F32::zero()) & (z > F32::zero());
+  return select(use.active & frame.valid & !flat, bumped, n);
+}
+
+// A shading normal on or below the horizon of the geometric one is lifted to just above it: n + (kHorizonCosine - n.g) g, as a
+// unit vector. Continuous, and exactly n where there is nothing to clamp.
+HWY_INLINE V3f clamp_to_horizon(const V3f& n, const V3f& geometric) {
+  const F32 cosine = dot(n, geometric);
+  const V3f lifted = unit_or(n + geometric * (f32(kHorizonCosine) - cosine), 1e-12f, geometric);
+  return select(cosine < f32(kHorizonCosine), lifted, n);
+}
+
+}  // namespace surface_lanes
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_BUMP_INL_H_

@@ -1,0 +1,15 @@
+// Tables of the kernels of this half of shade/, by instruction set.
+#pragma once
+#include "shade/surface.h"
+#include "simd/dispatch.h"
+
+namespace spanray {
+
+using ResolveFn = void (*)(const Frame&, const HitBatch&, SurfaceBatch&);
+extern const ResolveFn kResolve[kIsaCount];
+
+// Bit i: ray i accepts `primitive`. rays == nullptr: ray i is that of pixel (x0 + i, y); else all are ray x0 of *rays.
+using AcceptFn = uint32_t (*)(const Frame&, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates);
+extern const AcceptFn kAccept[kIsaCount];
+
+}  // namespace spanray

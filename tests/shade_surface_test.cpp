@@ -1,0 +1,400 @@
+// Hits -> surfaces: weights, position and its error bound, normals, footprint, against an oracle in long double.
+#include <gtest/gtest.h>
+
+#include "support/surface_scenes.h"
+
+namespace spanray {
+namespace {
+
+std::unique_ptr<TestFrame> full_frame(SceneData scene, const Camera& camera, int width, int height, Isa isa = Isa::kAuto) {
+  auto t = make_test_frame(std::move(scene), camera, test_settings(width, height, isa));
+  plan_all(t->frame);
+  return t;
+}
+
+TEST(ShadeSurface, WeightsPositionAndTFollowTheOracle) {
+  TestRandom random(1);
+  for (const double distance : {0.5, 3.0, 1000.0}) {
+    auto t = full_frame(random_surface_scene(2, 300), random_camera(random, distance), 4096, 4096);
+    if (distance > 100) t->frame.primary = make_primary_rays([&] { Camera c = random_camera(random, distance); c.fov_y_degrees = 0.2; return c; }(), 4096, 4096);
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      TestRandom pick(3);
+      HitBatch hits;
+      random_primary_hits(t->frame, pick, 2000, hits);
+      SurfaceBatch s;
+      resolve_surfaces(t->frame, hits, s);
+      int checked = 0;
+      for (int i = 0; i < hits.count; ++i) {
+        const size_t at = static_cast<size_t>(i);
+        const OracleHit want = oracle_hit(t->scene, hits.primitive[at], oracle_primary(t->frame, hits.pixel[at]));
+        const Real3 v0 = oracle_vertex(t->scene, hits.primitive[at], 0), p = real3(s.position, i);
+        const Real bound = s.position_error[i];
+        // Never off the triangle's plane by more than the bound, whatever the view.
+        ASSERT_LE(std::fabs(dot_real(p - v0, want.normal)), bound * std::sqrt(Real(3))) << distance << " " << i;
+        if (!want.inside || want.cosine < Real(1) / 16) continue;
+        ++checked;
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_LE(std::fabs(p[k] - want.position[k]), bound) << distance << " " << i;
+          ASSERT_NEAR(s.weight[k][i], static_cast<double>(want.b[k]), 0x1p-24) << distance << " " << i;
+        }
+        ASSERT_LE(bound, 0x1p-22f * (2 + static_cast<float>(length_real(p)))) << "the bound must stay useful";
+        ASSERT_NEAR(s.t[i] / static_cast<double>(want.t), 1, 0x1.1p-24);
+      }
+      EXPECT_GT(checked, 1000);
+    }
+  }
+}
+
+TEST(ShadeSurface, I1_PerspectiveRatioOfAMillion) {
+  SoupTriangle tri = with_uv(soup_triangle({-0.7, -0.4, -1}, {6e5, -5e5, -1e6}, {-2e3, 5e5, -1e6}), {0, 0}, {1, 0}, {0.3, 1});
+  Camera camera;
+  camera.eye[2] = 0, camera.target[2] = -1;
+  auto t = full_frame(make_test_scene({tri}), camera, 2048, 2048);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    HitBatch hits;
+    for (uint32_t y = 0; y < 2048; y += 7)
+      for (uint32_t x = 0; x < 2048; x += 5)
+        if (oracle_hit(t->scene, 0, oracle_primary(t->frame, pack_pixel(x, y))).inside) add_hit(hits, pack_pixel(x, y), 0, 0);
+    ASSERT_GT(hits.count, 10000);
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    double worst = 0;
+    for (int i = 0; i < hits.count; ++i) {
+      const OracleHit want = oracle_hit(t->scene, 0, oracle_primary(t->frame, hits.pixel[static_cast<size_t>(i)]));
+      const Real b[3] = {s.weight[0][i], s.weight[1][i], s.weight[2][i]};
+      Real uv[2], exact[2];
+      oracle_uv(t->scene, 0, b, uv), oracle_uv(t->scene, 0, want.b, exact);
+      for (int k = 0; k < 2; ++k) worst = std::max(worst, static_cast<double>(std::fabs(uv[k] - exact[k])));
+    }
+    EXPECT_LE(worst * 4096, 1.0 / 256) << isa_name(isa);
+    RecordProperty("worst_texels", std::to_string(worst * 4096));
+  }
+}
+
+TEST(ShadeSurface, I2_SmallSteepTriangleAtPixel16000) {
+  Camera camera;
+  camera.eye[0] = 100, camera.eye[1] = 50, camera.eye[2] = 80, camera.fov_y_degrees = 90;
+  auto frame = full_frame(make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}), camera, 16384, 16384);
+  const PrimaryRays& r = frame->frame.primary;
+  const auto at = [&](double x, double y, double depth) { return r.eye + (r.corner + r.step_x * x + r.step_y * y) * depth; };
+  // Two pixels wide, and forty times as deep as it is wide.
+  const double pixel = length3(r.step_x) * 30;
+  std::vector<SoupTriangle> soup = {with_uv(
+      soup_triangle(at(16000.1, 16000.2, 30), at(16002.3, 16000.9, 30 + 40 * pixel), at(16000.7, 16002.6, 30 - 40 * pixel)), {0, 0},
+      {1, 0}, {0, 1})};
+  auto t = full_frame(make_test_scene(soup), camera, 16384, 16384);
+  HitBatch hits;
+  for (uint32_t y = 15999; y < 16004; ++y)
+    for (uint32_t x = 15999; x < 16004; ++x)
+      if (oracle_hit(t->scene, 0, oracle_primary(t->frame, pack_pixel(x, y))).inside) add_hit(hits, pack_pixel(x, y), 0, 0);
+  ASSERT_GE(hits.count, 2);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 0; i < hits.count; ++i) {
+      const OracleHit want = oracle_hit(t->scene, 0, oracle_primary(t->frame, hits.pixel[static_cast<size_t>(i)]));
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.weight[k][i], static_cast<double>(want.b[k]), 1.0 / 256 / 4096);
+    }
+  }
+}
+
+TEST(ShadeSurface, I3_EqualNormalsInterpolateToExactlyOne) {
+  const glm::dvec3 n = normalize3(glm::dvec3(0.3, 0.4, 0.87), glm::dvec3(0, 0, 1));
+  const SoupTriangle tri = with_normals(soup_triangle({-1.1, -1, 0.1}, {1.3, -0.9, 0.2}, {0.1, 1.2, -0.3}), n, n, n);
+  auto t = full_frame(make_test_scene({tri}), Camera{}, 640, 640);
+  HitBatch hits;
+  for (uint32_t y = 200; y < 460; ++y)
+    for (uint32_t x = 200; x < 460; ++x) add_hit(hits, pack_pixel(x, y), 0, 0);  // inside and clamped
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 1; i < hits.count; ++i)
+      for (int k = 0; k < 3; ++k) ASSERT_EQ(bits_of(s.normal[k][i]), bits_of(s.normal[k][0])) << i;
+    EXPECT_NEAR(s.normal[0][0], n.x, 1e-6);
+  }
+}
+
+TEST(ShadeSurface, I4_OpposedNormalsGiveTheGeometricOne) {
+  // n0 = -n1 = n, and n2 = -n too: zero where b0 = 1/2.
+  const glm::dvec3 n(0, 0.6, 0.8);
+  const SoupTriangle tri = with_normals(soup_triangle({-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}), n, -n, -n);
+  auto t = full_frame(make_test_scene({tri}), Camera{}, 512, 512);
+  RayBatch rays;
+  HitBatch hits;
+  hits.rays = &rays;
+  for (int i = 0; i <= 64; ++i) {  // along the line b0 = 1/2: from the middle of one edge to the middle of the other
+    const double f = i / 64.0;
+    for (const double off : {0.0, 1e-7, -1e-7}) {
+      const glm::dvec3 p(0 - f + off, -1 + f + off, 0);
+      add_hit(hits, 0, static_cast<uint32_t>(add_ray(rays, p + glm::dvec3(0, 0, 4), {0, 0, -1})), 0);
+    }
+  }
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 0; i < hits.count; ++i) {
+      const Real3 shading = real3(s.normal, i);
+      for (int k = 0; k < 3; ++k) ASSERT_EQ(s.normal[k][i], s.geometric_normal[k][i]);
+      ASSERT_NEAR(static_cast<double>(length_real(shading)), 1, 1e-6);
+    }
+  }
+}
+
+TEST(ShadeSurface, NormalsFaceTheViewerAndFollowTheFrontSide) {
+  TestRandom random(5);
+  auto t = full_frame(random_surface_scene(6, 200), random_camera(random, 3), 1024, 1024);
+  t->frame.plan.bump = false;
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 3000, hits);
+  SurfaceBatch s;
+  resolve_surfaces(t->frame, hits, s);
+  int fronts = 0, backs = 0;
+  for (int i = 0; i < hits.count; ++i) {
+    const Triangle& tri = t->scene.triangles[hits.primitive[static_cast<size_t>(i)]];
+    const OracleHit want = oracle_hit(t->scene, hits.primitive[static_cast<size_t>(i)], oracle_primary(t->frame, hits.pixel[static_cast<size_t>(i)]));
+    const bool front = facing(t->scene, tri, t->frame.primary.eye) >= 0;
+    (front ? fronts : backs)++;
+    const Real3 g = real3(s.geometric_normal, i), n = real3(s.normal, i);
+    const Real3 toward = want.normal * (((tri.bits & kTriangleFlipped) != 0) == front ? -1 : 1);
+    ASSERT_LE(length_real(g - toward), 1e-6L);
+    ASSERT_GE(dot_real(g, real3(s.view, i)), -1e-6L);
+    ASSERT_GT(dot_real(g, n), 0x1p-11L) << "horizon";
+    ASSERT_NEAR(static_cast<double>(length_real(n)), 1, 1e-6);
+    Real3 blend;
+    for (int c = 0; c < 3; ++c) blend = blend + real3(t->scene.vertices[tri.vertex[c]].normal) * s.weight[c][i];
+    const Real3 smooth = blend * ((front ? 1 : -1) / length_real(blend));
+    if (dot_real(smooth, g) > 0.01L) {
+      ASSERT_LE(length_real(smooth - n), 1e-5L) << i;
+    }
+  }
+  EXPECT_GT(fronts, 500);
+  EXPECT_GT(backs, 500);
+  t->frame.settings.shading = Shading::kFlat;
+  resolve_surfaces(t->frame, hits, s);
+  for (int i = 0; i < hits.count; ++i)
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(bits_of(s.normal[k][i]), bits_of(s.geometric_normal[k][i]));
+}
+
+TEST(ShadeSurface, EdgeOnAndDegenerateTrianglesStayFiniteAndOnTheTriangle) {
+  const std::vector<SoupTriangle> soup = {
+      soup_triangle({0, -1, -1}, {0, 1, 0}, {0, -1, 1}),      // seen exactly edge-on from +z
+      soup_triangle({0, 0, 0}, {0.5, 0, 0}, {0.25, 0, 0}),    // a line
+      soup_triangle({0.1, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0}),   // a point
+      soup_triangle({0, 0, 1e-30}, {1e-30, 0, 0}, {0, 1e-30, 0}),
+      soup_triangle({-1e30, -1e30, -1e30}, {1e30, -1e30, -1e29}, {0, 1e30, -1e28}),
+      soup_triangle({0, 0, 5}, {1, 0, 5}, {0, 1, 5}),         // its vertices at the origin of the ray
+  };
+  auto t = full_frame(make_test_scene(soup), Camera{}, 64, 64);
+  RayBatch rays;
+  HitBatch hits;
+  hits.rays = &rays;
+  for (uint32_t p = 0; p < soup.size(); ++p)
+    for (const glm::dvec3& d : {glm::dvec3(0, 0, -1), glm::dvec3(0.02, 0, -1), glm::dvec3(0, 0.01, -1), glm::dvec3(1e-20, 1e-20, -1), glm::dvec3(0)})
+      add_hit(hits, 0, static_cast<uint32_t>(add_ray(rays, {0, 0, 5}, d)), p);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 0; i < hits.count; ++i) {
+      for (const BatchField& f : batch_fields(s)) ASSERT_TRUE(std::isfinite(f.data[i])) << f.name << " " << i;
+      float sum = 0;
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(s.weight[k][i] >= 0 && s.weight[k][i] <= 1);
+        sum += s.weight[k][i];
+      }
+      ASSERT_NEAR(sum, 1, 1e-6) << i;
+    }
+  }
+}
+
+TEST(ShadeSurface, PixelsOutsideAreClampedToTheTriangle) {
+  auto t = full_frame(make_test_scene({soup_triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0})}), Camera{}, 256, 256);
+  HitBatch hits;
+  for (uint32_t y = 0; y < 256; y += 3)
+    for (uint32_t x = 0; x < 256; x += 3) add_hit(hits, pack_pixel(x, y), 0, 0);
+  SurfaceBatch s;
+  resolve_surfaces(t->frame, hits, s);
+  int outside = 0;
+  for (int i = 0; i < hits.count; ++i) {
+    outside += !oracle_hit(t->scene, 0, oracle_primary(t->frame, hits.pixel[static_cast<size_t>(i)])).inside;
+    ASSERT_NEAR(s.weight[0][i] + s.weight[1][i] + s.weight[2][i], 1, 2e-7);
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(s.weight[k][i] >= 0 && s.weight[k][i] <= 1);
+    ASSERT_TRUE(std::fabs(s.position[0][i]) <= 1 && std::fabs(s.position[1][i]) <= 1);
+  }
+  EXPECT_GT(outside, 1000);
+}
+
+TEST(ShadeSurface, FootprintIsTheDerivativeOfThePosition) {
+  TestRandom random(7);
+  auto t = full_frame(random_surface_scene(8, 200), random_camera(random, 3), 2048, 2048);
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 2000, hits);
+  SurfaceBatch s;
+  resolve_surfaces(t->frame, hits, s);
+  int checked = 0;
+  for (int i = 0; i < hits.count; ++i) {
+    const uint32_t pixel = hits.pixel[static_cast<size_t>(i)], primitive = hits.primitive[static_cast<size_t>(i)];
+    const auto hit = [&](Real dx, Real dy) { return oracle_hit(t->scene, primitive, oracle_primary(t->frame, pixel, dx, dy)); };
+    if (!hit(0, 0).inside || hit(0, 0).cosine < 0.05L) continue;
+    const Real h = 1e-3L;
+    const Real3 x = (hit(h, 0).position - hit(-h, 0).position) * (1 / (2 * h)), y = (hit(0, h).position - hit(0, -h).position) * (1 / (2 * h));
+    ASSERT_LE(length_real(real3(s.dpdx, i) - x), 1e-5L * length_real(x));
+    ASSERT_LE(length_real(real3(s.dpdy, i) - y), 1e-5L * length_real(y));
+    ++checked;
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+// Igehy's transfer for rays that are not primary: o + x * do/dx, d + x * dd/dx.
+TEST(ShadeSurface, FootprintOfRaysWithDifferentials) {
+  TestRandom random(9);
+  auto t = full_frame(random_surface_scene(10, 100), Camera{}, 64, 64);
+  RayBatch rays;
+  HitBatch hits;
+  for (int i = 0; i < 500; ++i) {
+    const uint32_t primitive = random.bits() % 100;
+    const glm::dvec3 o = random_point(random, 3), p = point_on(t->scene, primitive, random);
+    add_hit(hits, 0, static_cast<uint32_t>(add_ray(rays, o, p - o)), primitive);
+    for (int k = 0; k < 3; ++k)
+      for (auto* a : {&rays.origin_dx[k], &rays.origin_dy[k], &rays.direction_dx[k], &rays.direction_dy[k]})
+        a->push_back(static_cast<float>(random.uniform(-0.01, 0.01)));
+  }
+  hits.rays = &rays;
+  SurfaceBatch s;
+  resolve_surfaces(t->frame, hits, s);
+  int checked = 0;
+  for (int i = 0; i < hits.count; ++i) {
+    const size_t at = static_cast<size_t>(i);
+    const auto hit = [&](Real dx) {
+      OracleRay r = oracle_ray(rays, i);
+      const Real3 o{rays.origin_dx[0][at], rays.origin_dx[1][at], rays.origin_dx[2][at]};
+      const Real3 d{rays.direction_dx[0][at], rays.direction_dx[1][at], rays.direction_dx[2][at]};
+      return oracle_hit(t->scene, hits.primitive[at], {r.origin + o * dx, r.direction + d * dx});
+    };
+    if (hit(0).cosine < 0.05L) continue;
+    const Real3 x = (hit(1e-3L).position - hit(-1e-3L).position) * 500;
+    ASSERT_LE(length_real(real3(s.dpdx, i) - x), 1e-4L * length_real(x)) << i;
+    ++checked;
+  }
+  EXPECT_GT(checked, 300);
+}
+
+TEST(ShadeSurface, MissesAreZero) {
+  auto t = full_frame(random_surface_scene(11, 5), Camera{}, 64, 64);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    HitBatch hits;
+    for (uint32_t i = 0; i < 70; ++i) add_hit(hits, pack_pixel(i % 64, 5), 0, i % 3 == 0 || i >= 32 ? kNoPrimitive : i % 5);
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    ASSERT_EQ(s.count, 70);
+    for (int i = 0; i < 70; ++i)
+      for (const BatchField& f : batch_fields(s))
+        if (const bool miss = hits.primitive[static_cast<size_t>(i)] == kNoPrimitive; miss || f.name == "valid") {
+          ASSERT_EQ(bits_of(f.data[i]), miss ? 0u : 1u) << f.name;
+        }
+    HitBatch none;
+    resolve_surfaces(t->frame, none, s);
+    EXPECT_EQ(s.count, 0);
+  }
+}
+
+TEST(ShadeSurface, OneBitPatternForEveryInstructionSetAndBatchSplit) {
+  TestRandom random(12);
+  for (const Shading shading : {Shading::kFlat, Shading::kPhong})
+    for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear}) {
+      auto t = full_frame(random_surface_scene(13, 60), random_camera(random, 3), 512, 512, Isa::kScalar);
+      t->frame.settings.shading = shading, t->frame.settings.filter = filter;
+      HitBatch hits;
+      random_primary_hits(t->frame, random, 301, hits);
+      for (size_t i = 40; i < 80; ++i) hits.primitive[i] = hits.primitive[40];  // a run of one triangle: the uniform path
+      hits.primitive[50] = kNoPrimitive;
+      SurfaceBatch want;
+      resolve_surfaces(t->frame, hits, want);
+      for (const Isa isa : supported_isas()) {
+        t->frame.isa = isa;
+        for (const int size : {1, 3, 16, 301}) {
+          if (size == 1 && isa == Isa::kScalar) continue;
+          SurfaceBatch s;
+          for (int first = 0; first < 301; first += size) {
+            HitBatch part;
+            for (int i = std::min(first + size, 301); i-- > first;)  // reversed
+              add_hit(part, hits.pixel[static_cast<size_t>(i)], 0, hits.primitive[static_cast<size_t>(i)]);
+            resolve_surfaces(t->frame, part, s);
+            for (int i = 0; i < part.count; ++i)
+              ASSERT_TRUE(same_surface(want, first + part.count - 1 - i, s, i)) << isa_name(isa) << " batch " << size;
+          }
+        }
+      }
+    }
+}
+
+TEST(ShadeSurface, PrimaryRaysAsABatch) {
+  TestRandom random(14);
+  auto t = full_frame(random_surface_scene(15, 100), random_camera(random, 3), 1024, 1024);
+  t->frame.plan.textures = t->frame.plan.bump = false;
+  HitBatch hits, by_rays;
+  random_primary_hits(t->frame, random, 1000, hits);
+  RayBatch rays;
+  for (int i = 0; i < hits.count; ++i) {
+    const uint32_t pixel = hits.pixel[static_cast<size_t>(i)];
+    const OracleRay r = oracle_primary(t->frame, pixel);
+    const auto d = [](Real3 v) { return glm::dvec3(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)); };
+    add_hit(by_rays, pixel, static_cast<uint32_t>(add_ray(rays, d(r.origin), d(r.direction), pixel)), hits.primitive[static_cast<size_t>(i)]);
+  }
+  by_rays.rays = &rays;
+  SurfaceBatch a, b;
+  resolve_surfaces(t->frame, hits, a);
+  resolve_surfaces(t->frame, by_rays, b);
+  int checked = 0;
+  for (int i = 0; i < hits.count; ++i) {
+    const OracleHit h = oracle_hit(t->scene, hits.primitive[static_cast<size_t>(i)], oracle_primary(t->frame, hits.pixel[static_cast<size_t>(i)]));
+    if (!h.inside || h.cosine < 0.1L) continue;
+    ++checked;
+    // The ray moved by half an ulp of origin (eye at 3) and direction: times 1 / cosine on the surface.
+    for (int k = 0; k < 3; ++k) ASSERT_NEAR(a.position[k][i], b.position[k][i], 2e-6 / static_cast<double>(h.cosine));
+  }
+  EXPECT_GT(checked, 400);
+  rays.primary = true;  // now the same numbers stand behind both
+  resolve_surfaces(t->frame, by_rays, b);
+  for (int i = 0; i < hits.count; ++i) ASSERT_TRUE(same_surface(a, i, b, i, "ray"));
+}
+
+TEST(ShadeSurface, ThePlanChangesOnlyWhatItLeavesOut) {
+  TestRandom random(16);
+  auto t = full_frame(random_surface_scene(17, 60), random_camera(random, 3), 512, 512);
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 200, hits);
+  SurfaceBatch all, less;
+  resolve_surfaces(t->frame, hits, all);
+  t->frame.plan.specular = t->frame.plan.emission = t->frame.plan.ambient = t->frame.plan.bounces = t->frame.plan.bump = false;
+  resolve_surfaces(t->frame, hits, less);
+  for (int i = 0; i < hits.count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_EQ(bits_of(all.diffuse[k][i]), bits_of(less.diffuse[k][i]));
+      ASSERT_EQ(bits_of(all.position[k][i]), bits_of(less.position[k][i]));
+      ASSERT_EQ(bits_of(less.specular[k][i]) | bits_of(less.emission[k][i]) | bits_of(less.ambient[k][i]) | bits_of(less.mirror[k][i]), 0u);
+    }
+}
+
+TEST(ShadeSurface, StorageIsAlignedPaddedAndReused) {
+  SurfaceBatch s;
+  s.resize(1000);
+  const float* block = s.position[0];
+  const size_t bytes = s.memory_bytes();
+  for (const BatchField& f : batch_fields(s)) EXPECT_EQ(reinterpret_cast<uintptr_t>(f.data) % 64, 0u) << f.name;
+  auto fields = batch_fields(s);
+  std::sort(fields.begin(), fields.end(), [](const BatchField& a, const BatchField& b) { return a.data < b.data; });
+  for (size_t i = 1; i < fields.size(); ++i) EXPECT_GE(fields[i].data - fields[i - 1].data, 1016) << fields[i].name;
+  s.resize(10), s.resize(999);
+  EXPECT_EQ(s.position[0], block);
+  EXPECT_EQ(s.memory_bytes(), bytes);
+}
+
+}  // namespace
+}  // namespace spanray

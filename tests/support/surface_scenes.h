@@ -1,0 +1,76 @@
+// Random scenes and hits that use every part of surfaces.
+#pragma once
+#include <algorithm>
+
+#include "support/surface_oracle.h"
+
+namespace spanray {
+
+inline Texel noise_texel(TestRandom& random) {
+  const auto c = [&] { return static_cast<uint16_t>(random.bits() >> 16); };
+  return {c(), c(), c(), c()};
+}
+
+// Triangles around the origin, sizes 0.01 to 2, two-sided views, six materials: bare, every map, bump, normal map, clamp, -mm.
+inline SceneData random_surface_scene(uint32_t seed, int triangles) {
+  TestRandom random(seed);
+  std::vector<Material> materials(6);
+  for (Material& m : materials) {
+    for (float* color : {m.ambient, m.diffuse, m.specular, m.emission, m.mirror})
+      for (int k = 0; k < 3; ++k) color[k] = static_cast<float>(random.uniform());
+    m.shininess = static_cast<float>(random.uniform(1, 100));
+    m.opacity = static_cast<float>(random.uniform());
+  }
+  std::vector<SoupTriangle> soup;
+  for (int i = 0; i < triangles; ++i) {
+    const double size = std::pow(10.0, random.uniform(-2, 0.3));
+    const glm::dvec3 a = random_point(random);
+    SoupTriangle t = soup_triangle(a, a + random_point(random, size), a + random_point(random, size), static_cast<uint32_t>(i % 6));
+    const auto uv = [&] { return glm::dvec2(random.uniform(-2, 2), random.uniform(-2, 2)); };
+    t = with_uv(t, uv(), uv(), uv());
+    if (i % 3) {
+      const glm::dvec3 n = random_point(random);
+      t = with_normals(t, n + random_point(random, 0.3), n + random_point(random, 0.3), n + random_point(random, 0.3));
+    }
+    soup.push_back(t);
+  }
+  SceneData scene = make_test_scene(soup, materials);
+  const auto noise = [&](int, int) { return noise_texel(random); };
+  const int32_t square = add_texture(scene, 64, 64, noise), wide = add_texture(scene, 128, 4, noise), dot = add_texture(scene, 1, 1, noise);
+  scene.texture_uses[static_cast<size_t>(wide)].clamp = 1;
+  scene.texture_uses[static_cast<size_t>(square)].scale[0] = -3;
+  scene.texture_uses[static_cast<size_t>(dot)].base = 0.25f, scene.texture_uses[static_cast<size_t>(dot)].gain = 0.5f;
+  Material* m = scene.materials.data();
+  m[1].map_diffuse = square, m[1].map_ambient = wide, m[1].map_specular = dot, m[1].map_shininess = square, m[1].map_emission = wide;
+  m[1].map_opacity = square, m[2].map_bump = square, m[3].map_normal = wide, m[4].map_diffuse = wide, m[5].map_diffuse = dot;
+  return scene;
+}
+
+inline Camera random_camera(TestRandom& random, double distance) {
+  Camera c;
+  const glm::dvec3 eye = normalize3(random_point(random), glm::dvec3(0, 0, 1)) * distance;
+  for (int k = 0; k < 3; ++k) c.eye[k] = eye[k], c.target[k] = 0.1 * k;
+  c.fov_y_degrees = 60;
+  return c;
+}
+
+// The pixel that sees p; false if none does.
+inline bool pixel_of(const Frame& frame, const glm::dvec3& p, uint32_t* pixel) {
+  const PrimaryRays& r = frame.primary;
+  const glm::dvec3 v = p - r.eye;
+  const double w = dot3(r.forward, v), x = dot3(r.pixel_row_x, v) / w, y = dot3(r.pixel_row_y, v) / w;
+  if (!(w > 0) || !(x >= 0) || !(y >= 0) || x >= r.width || y >= r.height) return false;
+  *pixel = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+  return true;
+}
+
+// n primary hits of random triangles near random points of them: also of pixels just outside.
+inline void random_primary_hits(const Frame& frame, TestRandom& random, int n, HitBatch& hits) {
+  while (hits.count < n) {
+    const uint32_t primitive = random.bits() % static_cast<uint32_t>(frame.scene->triangles.size());
+    uint32_t pixel = 0;
+    if (pixel_of(frame, point_on(*frame.scene, primitive, random), &pixel)) add_hit(hits, pixel, 0, primitive);
+  }
+}
+
+}  // namespace spanray
