@@ -3,7 +3,7 @@
 
 #include "core/hash.h"
 #include "ray/bvh_data.h"
-#include "support/ray_oracle.h"
+#include "support/bvh_oracle.h"
 
 namespace spanray {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ray/bvh.h"
-#include "support/ray_oracle.h"
+#include "support/bvh_oracle.h"
 
 namespace spanray {
 namespace {
