@@ -40,6 +40,8 @@ TEST(SettingsText, NearestWordIsOfferedOnlyIfNear) {
   EXPECT_EQ(nearest_word("pohng", known), "phong");
   EXPECT_EQ(nearest_word("Gourad", known), "gouraud");
   EXPECT_EQ(nearest_word("wireframe", known), "");
+  EXPECT_EQ(nearest_word("fov", {"eye", "fov_y"}), "fov_y");
+  EXPECT_EQ(nearest_word("f", {"eye", "fov_y"}), "");
   EXPECT_EQ(nearest_word(std::string(1000000, 'p'), known), "");
   EXPECT_EQ(did_you_mean("flt", known), " (did you mean 'flat'?)");
   EXPECT_EQ(did_you_mean("xyz", known), "");

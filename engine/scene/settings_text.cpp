@@ -59,6 +59,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     best_distance = distance;
     best = candidate;
   }
+  if (best.empty() && word.size() >= 2)  // the beginning of a word: "fov" for "fov_y"
+    for (const std::string& candidate : known)
+      if (candidate.size() > word.size() && edit_distance(word, std::string_view(candidate).substr(0, word.size())) == 0) return candidate;
   return best;
 }
 

@@ -127,9 +127,9 @@ bool LineReader::next(std::string_view* line) {
   first_line_ = lines_;
   if (line->empty() || line->back() != '\\') return true;
   joined_.assign(*line);
-  while (!joined_.empty() && joined_.back() == '\\' && !rest_.empty()) {
+  while (!joined_.empty() && joined_.back() == '\\') {
     joined_.back() = ' ';
-    joined_.append(physical_line());
+    if (!rest_.empty()) joined_.append(physical_line());
   }
   *line = joined_;
   return true;

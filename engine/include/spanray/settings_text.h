@@ -53,7 +53,7 @@ template <class E> std::string enum_choices() {
   return text;
 }
 
-// The known word nearest to `word` (case ignored, few edits away), or "" if none is near.
+// The known word nearest to `word` (few edits away, or else begun by it; case ignored), or "" if none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 // " (did you mean 'shading'?)", or "" if nothing is near: for the end of a message about an unknown word.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
