@@ -1,0 +1,42 @@
+// The golden frames: what the determinism matrix renders. Their hashes stand in tests/golden/frames.txt.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "spanray/settings.h"
+
+namespace spanray {
+
+struct GoldenFrame {
+  std::string name, scene;  // scene: file in assets/
+  size_t camera = 0;        // index into the scene's cameras
+  Settings settings;
+};
+
+inline std::vector<GoldenFrame> golden_frames() {
+  std::vector<GoldenFrame> frames;
+  const auto add = [&](std::string name, std::string scene, size_t camera, auto change) {
+    GoldenFrame f{std::move(name), std::move(scene), camera, {}};
+    f.settings.width = 320, f.settings.height = 180;
+    change(f.settings);
+    frames.push_back(std::move(f));
+  };
+  const auto all_on = [](Settings&) {};
+  add("cornell", "cornell.toml", 0, all_on);
+  add("cornell_flat", "cornell.toml", 1, [](Settings& s) { s.shading = Shading::kFlat; });
+  add("cornell_rays", "cornell.toml", 0, [](Settings& s) { s.visibility = Visibility::kRay; });
+  add("spheres", "spheres.toml", 0, all_on);
+  add("spheres_gouraud", "spheres.toml", 0, [](Settings& s) { s.shading = Shading::kGouraud; });
+  add("spheres_nearest", "spheres.toml", 1, [](Settings& s) { s.filter = Filter::kNearest, s.shadows = Shadows::kNone; });
+  add("columns", "columns.toml", 0, all_on);
+  add("columns_bilinear", "columns.toml", 1, [](Settings& s) { s.filter = Filter::kBilinear, s.bump = false; });
+  add("columns_odd_size", "columns.toml", 0, [](Settings& s) { s.width = 197, s.height = 131, s.culling = Culling::kBack; });
+  add("gauze", "gauze.toml", 0, all_on);
+  add("gauze_rays", "gauze.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
+  add("glass", "glass.toml", 0, all_on);
+  add("glass_rays", "glass.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay, s.shading = Shading::kGouraud; });
+  add("glass_screen_door", "glass.toml", 0, [](Settings& s) { s.transparency = Transparency::kScreenDoor; });
+  return frames;
+}
+
+}  // namespace spanray
