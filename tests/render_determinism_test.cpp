@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -108,7 +109,9 @@ TEST_P(Golden, R17_OneHash) {
       render(golden, scene, set, threads, other);
       const unsigned after = _mm_getcsr();
       _mm_setcsr(saved);
-      if (poison) EXPECT_EQ(after & 0xe040u, 0xc040u) << "the host's control register was not restored";
+      if (poison) {
+        EXPECT_EQ(after & 0xe040u, 0xc040u) << "the host's control register was not restored";
+      }
       if (HasFatalFailure()) return;
       EXPECT_TRUE(other.hashes == first.hashes)
           << golden.name << ": " << isa_name(set) << ", " << threads << " threads" << (poison ? ", poisoned MXCSR" : "") << "\n  "

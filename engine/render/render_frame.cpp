@@ -114,12 +114,13 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   }
 
   FrameCounts counts;
-  counts.triangles_in = scene.data().triangles.size();
   if (plan.flags.raster) {
     stats.ms.transform = timed_ms([&] { transform_vertices(frame, vertices); });
     if (request.ladder != nullptr) hash_vertices(vertices, *request.ladder);
     stats.ms.clip = timed_ms([&] { clip_triangles(frame, vertices, bins, counts); });
     stats.ms.bin = timed_ms([&] { bin_triangles(frame, bins); });
+  } else {
+    counts.triangles_in = scene.data().triangles.size();
   }
   std::unique_ptr<LitVertexCache> lit_vertices;
   if (plan.flags.lit_vertices)

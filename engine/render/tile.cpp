@@ -27,6 +27,7 @@ struct Chunk {
 void make_primary_batch(const Frame& frame, Level& level) {
   const PrimaryRays& p = frame.primary;
   level.rays.resize(level.slots, false);
+  level.rays.primary = true;  // accept(hit) then asks the exact rays, as the rasterizer does
   for (int i = 0; i < level.slots; ++i) {
     const double x = (level.pixel[i] & 0xffff) + 0.5, y = (level.pixel[i] >> 16) + 0.5;
     const glm::dvec3 d = p.corner + p.step_x * x + p.step_y * y;

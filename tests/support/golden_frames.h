@@ -1,5 +1,6 @@
 // The golden frames: what the determinism matrix renders. Their hashes stand in tests/golden/frames.txt.
 #pragma once
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct GoldenFrame {
   size_t camera = 0;        // index into the scene's cameras
   Settings settings;
 };
+
+inline void PrintTo(const GoldenFrame& frame, std::ostream* out) { *out << frame.name; }
 
 inline std::vector<GoldenFrame> golden_frames() {
   std::vector<GoldenFrame> frames;
