@@ -105,7 +105,7 @@ HWY_INLINE Mask and_not(Mask a, Mask b) { return {hn::AndNot(a.m, b.m)}; }  // !
 HWY_INLINE bool any(Mask a) { return !hn::AllFalse(DF(), a.m); }
 HWY_INLINE bool all(Mask a) { return hn::AllTrue(DF(), a.m); }
 HWY_INLINE int count(Mask a) { return static_cast<int>(hn::CountTrue(DF(), a.m)); }
-// Bit i is lane i.
+// Bit i is lane i; bits past kLanes are 0, and ignored by mask_from_bits.
 HWY_INLINE uint32_t to_bits(Mask a) {
   alignas(16) uint8_t bytes[16] = {};
   hn::StoreMaskBits(DF(), a.m, bytes);
@@ -118,7 +118,8 @@ HWY_INLINE Mask mask_from_bits(uint32_t bits) {
   std::memcpy(bytes, &bits, 4);
   return {hn::LoadMaskBits(DF(), bytes)};
 }
-HWY_INLINE Mask first_lanes(int n) { return {hn::FirstN(DF(), static_cast<size_t>(n))}; }
+// The first n lanes; none for n <= 0, all from kLanes up.
+HWY_INLINE Mask first_lanes(int n) { return {hn::FirstN(DF(), n < 0 ? 0 : n < kLanes ? static_cast<size_t>(n) : size_t{kLanes})}; }
 
 HWY_INLINE F32 select(Mask m, F32 yes, F32 no) { return {hn::IfThenElse(m.m, yes.v, no.v)}; }
 HWY_INLINE I32 select(Mask m, I32 yes, I32 no) { return {hn::IfThenElse(hn::RebindMask(DI(), m.m), yes.v, no.v)}; }
