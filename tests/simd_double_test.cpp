@@ -49,6 +49,13 @@ HWY_INLINE F64 double_op(int op, F64 a, F64 b, F64 c) {
 void double_kernel(int op, const double* a, const double* b, const double* c, double* out, size_t n) {
   for (size_t i = 0; i < n; i += kLanes) double_op(op, F64::load(a + i), F64::load(b + i), F64::load(c + i)).store(out + i);
 }
+void to_integer_kernel(const double* a, int32_t* truncated, int32_t* up, int32_t* nearest, size_t n) {
+  for (size_t i = 0; i < n; i += kLanes) {
+    to_i32(F64::load(a + i)).store(truncated + i);
+    ceil_i32(F64::load(a + i)).store(up + i);
+    round_i32(F64::load(a + i)).store(nearest + i);
+  }
+}
 void narrow_kernel(const double* a, float* out, size_t n) {
   for (size_t i = 0; i < n; i += kLanes) to_f32(F64::load(a + i)).store(out + i);
 }
@@ -68,6 +75,8 @@ namespace {
 
 using DoubleFn = void (*)(int, const double*, const double*, const double*, double*, size_t);
 using NarrowFn = void (*)(const double*, float*, size_t);
+using ToIntegerFn = void (*)(const double*, int32_t*, int32_t*, int32_t*, size_t);
+const ToIntegerFn kToInteger[kIsaCount] = SPANRAY_KERNEL_TABLE(to_integer_kernel);
 using WidenFn = void (*)(const float*, const int32_t*, double*, double*, size_t);
 const DoubleFn kDouble[kIsaCount] = SPANRAY_KERNEL_TABLE(double_kernel);
 const NarrowFn kNarrow[kIsaCount] = SPANRAY_KERNEL_TABLE(narrow_kernel);
@@ -167,6 +176,31 @@ TEST(Doubles, NarrowingRoundsToNearestEven) {
       const float want = static_cast<float>(a[i]);
       if (std::isnan(want) && std::isnan(out[i])) continue;
       ASSERT_EQ(std::bit_cast<uint32_t>(out[i]), std::bit_cast<uint32_t>(want)) << isa_name(static_cast<Isa>(isa + 1)) << std::hexfloat << " of " << a[i];
+    }
+  }
+}
+
+TEST(Doubles, IntegersSaturateAndRoundAsStated) {
+  TestRandom random(4);
+  std::vector<double> a = hard_doubles();
+  for (int i = 0; i < 20000; ++i) {
+    const double half = random.between(-100000, 100000) * 0.5;
+    for (const double x : {half, std::nextafter(half, -1e9), std::nextafter(half, 1e9)}) a.push_back(x);
+    a.push_back(random.uniform(-2147483647.0, 2147483647.0));
+    a.push_back(random_double(random));
+  }
+  for (const double x : {2147483646.0, 2147483646.5, 2147483647.0, 2147483647.5, 2147483648.0, 4294967296.0, 1e300}) a.push_back(x), a.push_back(-x);
+  while (a.size() % 16 != 0) a.push_back(1);
+  const auto saturated = [](double x) { return !(x > -2147483647.0) ? -2147483647 : x >= 2147483647.0 ? 2147483647 : static_cast<int32_t>(x); };
+  std::vector<int32_t> truncated(a.size()), up(a.size()), nearest(a.size());
+  for (int isa = 0; isa < kIsaCount; ++isa) {
+    if (!isa_supported(static_cast<Isa>(isa + 1))) continue;
+    kToInteger[isa](a.data(), truncated.data(), up.data(), nearest.data(), a.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+      const double floor = std::floor(a[i]);
+      ASSERT_EQ(truncated[i], saturated(a[i])) << isa_name(static_cast<Isa>(isa + 1)) << std::hexfloat << " " << a[i];
+      ASSERT_EQ(up[i], saturated(std::ceil(a[i]))) << isa_name(static_cast<Isa>(isa + 1)) << std::hexfloat << " " << a[i];
+      ASSERT_EQ(nearest[i], std::isnan(a[i]) ? -2147483646 : saturated(a[i] - floor >= 0.5 ? floor + 1 : floor)) << isa_name(static_cast<Isa>(isa + 1)) << std::hexfloat << " " << a[i];
     }
   }
 }

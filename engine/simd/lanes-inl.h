@@ -238,7 +238,7 @@ HWY_INLINE I32 ceil_i32(F64 a) {
   const F64 t = to_f64(to_i32(a));
   return to_i32(select_lt(t, a, t + f64(1.0), t));
 }
-// Nearest integer, halves up, for |a| < 2^31 - 1; saturates as to_i32. No double rounding: a - floor(a) is exact or above 1/2.
+// Nearest integer, halves up; saturates as to_i32, NaN -> -2147483646. No double rounding: a - floor(a) is exact or above 1/2.
 HWY_INLINE I32 round_i32(F64 a) {
   const F64 t = to_f64(to_i32(a));
   const F64 floor = select_lt(a, t, t - f64(1.0), t);
