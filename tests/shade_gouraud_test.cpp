@@ -4,6 +4,7 @@
 #include <set>
 #include <thread>
 
+#include "math/elementary.h"
 #include "support/test_surfaces.h"
 
 namespace spanray {
@@ -161,6 +162,35 @@ TEST(Gouraud, BothSidesOfASheetAreLitFromTheirOwnSide) {
       else EXPECT_EQ(got, 0);
     }
   }
+}
+
+TEST(Gouraud, CornerNormalsAreTurnedAsOne) {
+  auto t = make_test_surfaces(7, 1, Shading::kGouraud, false);
+  t->frame().primary.eye = {0, 0, 5};
+  Light light = t->scene().lights[2];
+  const glm::dvec3 toward = normalize3(glm::dvec3(1, 0, 0.5), glm::dvec3(0));
+  for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-toward[k]), light.intensity[k] = 1;
+  float seen[2];
+  for (const int opposed : {0, 1}) {
+    SoupTriangle soup = soup_triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+    // The third normal lies 10 degrees below the horizon, on the side of the light; or all of them oppose the winding.
+    const double bent[3] = {0, 0, 100 * kPi / 180};
+    glm::dvec3 n[3];
+    for (int j = 0; j < 3; ++j) {
+      n[j] = glm::dvec3(std::sin(bent[j]), 0, std::cos(bent[j])) * (opposed ? -1.0 : 1.0);
+      for (int k = 0; k < 3; ++k) soup.corner[j].normal[k] = static_cast<float>(n[j][k]);
+    }
+    t->scene() = make_test_scene({soup});
+    t->scene().lights = {light};
+    clear_surfaces(t->surfaces, 1);
+    put_surface(*t, 0, 0, glm::dvec3(0.25, 0.25, 0.5), t->frame().primary.eye);
+    put3(t->surfaces.diffuse, 0, glm::dvec3(1));
+    t->frame().plan.ambient = false;
+    seen[opposed] = shade_all(*t, Isa::kScalar).channel[0][0];
+    const double up = toward.z / kPi, third = std::max(0.0, toward.x * std::sin(bent[2]) + toward.z * std::cos(bent[2])) / kPi;
+    EXPECT_NEAR(seen[opposed], 0.5 * up + 0.5 * third, 1e-6);
+  }
+  EXPECT_EQ(seen[0], seen[1]);
 }
 
 TEST(Gouraud, EmptyCacheAndEmptyBatchAreFine) {

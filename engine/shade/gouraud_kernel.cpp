@@ -60,8 +60,9 @@ void light_vertices(const Frame& frame, const Light& light, const uint32_t* vert
 // Adds one light, interpolated from the corners, to each surface.
 // Source:   catalog/shading/gouraud.inl.
 // Input:    light at vertices, or nullptr: the corners are lit here, seen from the origin of each ray.
-// Contract: a corner counts as lit on the side that the pixel's ray sees: its normal is turned into the hemisphere of the
-//           geometric normal, as the pixel's own is. The geometric normal cuts off light per pixel. At a vertex: Phong (HARD-CASES S6).
+// Contract: corners count as lit on the side that the pixel's ray sees. The three normals are turned as one, by the sign of their
+//           sum against the geometric normal: whatever the winding says, and without a jump where one of them alone lies below
+//           the horizon. The geometric normal cuts off light per pixel. At a vertex: Phong (HARD-CASES S6).
 template <class Kind>
 void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
                        const float* corner_light, float* const radiance[3]) {
@@ -75,6 +76,7 @@ void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch
     active = active & in_front(s, i, Kind::incidence(lanes, load3(s.position, i)));
     if (!any(active)) continue;
     const V3 geometric_normal = load3(s.geometric_normal, i);
+    V3 normals = {F32::zero(), F32::zero(), F32::zero()};
     const I32 primitive = select(active, I32::load(s.primitive + i), I32::zero());
     const I32 material = select(active, I32::load(s.material + i), I32::zero());
     Corner corner = {{}, {}, {}, material_shininess(scene, material), reflectance_models(scene, material)};
@@ -90,9 +92,12 @@ void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch
         corner.view = view_from(viewer, corner.position);
         at[j] = light_corner<Kind>(lanes, corner, active, specular);
       }
-      const Mask front = formula::dot(corner.normal, geometric_normal) >= F32::zero();
-      at[j].diffuse = formula::shading::gouraud::seen_from(front, at[j].diffuse);
-      at[j].specular = formula::shading::gouraud::seen_from(front, at[j].specular);
+      normals = normals + corner.normal;
+    }
+    const Mask front = formula::dot(normals, geometric_normal) >= F32::zero();
+    for (Reflected& r : at) {
+      r.diffuse = formula::shading::gouraud::seen_from(front, r.diffuse);
+      r.specular = formula::shading::gouraud::seen_from(front, r.specular);
     }
     const V3 weight = load3(s.weight, i);
     const Reflected factor = {
