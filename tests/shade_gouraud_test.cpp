@@ -183,12 +183,12 @@ TEST(Gouraud, CornerNormalsAreTurnedAsOne) {
     t->scene() = make_test_scene({soup});
     t->scene().lights = {light};
     clear_surfaces(t->surfaces, 1);
-    put_surface(*t, 0, 0, glm::dvec3(0.25, 0.25, 0.5), t->frame().primary.eye);
+    put_surface(*t, 0, 0, glm::dvec3(1.0 / 3), t->frame().primary.eye);
     put3(t->surfaces.diffuse, 0, glm::dvec3(1));
     t->frame().plan.ambient = false;
     seen[opposed] = shade_all(*t, Isa::kScalar).channel[0][0];
     const double up = toward.z / kPi, third = std::max(0.0, toward.x * std::sin(bent[2]) + toward.z * std::cos(bent[2])) / kPi;
-    EXPECT_NEAR(seen[opposed], 0.5 * up + 0.5 * third, 1e-6);
+    EXPECT_NEAR(seen[opposed], (2 * up + third) / 3, 1e-6);
   }
   EXPECT_EQ(seen[0], seen[1]);
 }
