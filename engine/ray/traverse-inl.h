@@ -1,0 +1,156 @@
+// One ray against the tree: lanes are the eight children of a node or the eight triangles of a leaf. Included once a target.
+// Source:   Ize 2013, "Robust BVH Ray Traversal"; Wald, Benthin, Boulos 2008, "Getting Rid of Packets".
+// Contract: lanes only cull, and conservatively; hit_triangle() of ray/triangle_test.h decides.
+#if defined(SPANRAY_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_TRAVERSE_INL_H_
+#undef SPANRAY_TRAVERSE_INL_H_
+#else
+#define SPANRAY_TRAVERSE_INL_H_
+#endif
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "ray/bvh_data.h"
+#include "ray/triangle_test.h"
+#include "simd/lanes8-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+
+// A ray with what the lanes need of it.
+struct LaneRay {
+  TraceRay exact;
+  float shear_x, shear_y;
+  float edge_slope, edge_offset;  // an edge function in lanes is off by at most slope * (sum of |x| + |y|) + offset
+  int near_row[3], far_row[3];    // rows of BvhNode::bounds
+};
+
+// With u = 2^-24 and M the largest distance along an axis from the origin to a vertex, x and y in lanes are off by at most 7 u M from
+// those in double, so x1 * y2 - y1 * x2 is off by at most 40 u M (|x1| + |y1| + |x2| + |y2| + 4 u M).
+HWY_INLINE bool prepare_lane_ray(const Bvh::Data& data, const RayBatch& rays, int i, LaneRay& ray) {
+  const float origin[3] = {rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]};
+  const float direction[3] = {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]};
+  if (!prepare_ray(origin, direction, rays.t_max[i], ray.exact)) return false;
+  ray.shear_x = static_cast<float>(ray.exact.shear_x);
+  ray.shear_y = static_cast<float>(ray.exact.shear_y);
+  float m = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float below = std::fabs(data.bounds_min[k] - origin[k]), above = std::fabs(data.bounds_max[k] - origin[k]);
+    m = below > m ? below : m;
+    m = above > m ? above : m;
+    ray.near_row[k] = ray.exact.negative[k] ? k + 3 : k;
+    ray.far_row[k] = ray.exact.negative[k] ? k : k + 3;
+  }
+  // Where products may overflow or lose bits to underflow, every lane goes to the exact test.
+  const bool in_range = m > 1e-15f && m < 1e18f;
+  ray.edge_slope = in_range ? 2.4e-6f * m : 0.0f;
+  ray.edge_offset = in_range ? 6e-13f * m * m : std::numeric_limits<float>::infinity();
+  return true;
+}
+
+// Which children the ray meets in [0, limit], and where it enters them. The arithmetic of slab(), eight boxes at a time.
+HWY_INLINE uint32_t hit_children(const BvhNode& node, const LaneRay& ray, float limit, float* near_out) {
+  uint32_t bits = 0;
+  for (int s = 0; s < kBvhWidth; s += kLanes8) {
+    F8 near = f8(0.0f), far = f8(limit);
+    for (int k = 0; k < 3; ++k) {
+      const F8 o = f8(ray.exact.origin[k]);
+      near = cull_max((F8::load(node.bounds[ray.near_row[k]] + s) - o) * f8(ray.exact.inv_near[k]), near);
+      far = cull_min((F8::load(node.bounds[ray.far_row[k]] + s) - o) * f8(ray.exact.inv_far[k]), far);
+    }
+    near.store(near_out + s);
+    bits |= to_bits(near <= far) << s;
+  }
+  return bits;
+}
+
+// Which triangles of a leaf might be hit at no more than limit: all that hit_triangle() would accept, and few others.
+HWY_INLINE uint32_t candidates(const TriangleBlock& block, const LaneRay& ray, float limit) {
+  const int kx = ray.exact.kx, ky = ray.exact.ky, kz = ray.exact.kz;
+  const F8 ox = f8(ray.exact.origin[kx]), oy = f8(ray.exact.origin[ky]), oz = f8(ray.exact.origin[kz]);
+  const F8 shear_x = f8(ray.shear_x), shear_y = f8(ray.shear_y), inv_z = f8(ray.exact.inv_near[kz]);
+  uint32_t bits = 0;
+  for (int s = 0; s < kBvhWidth; s += kLanes8) {
+    F8 x[3], y[3], t[3];
+    for (int v = 0; v < 3; ++v) {
+      const F8 z = F8::load(block.vertex[v][kz] + s) - oz;
+      x[v] = F8::load(block.vertex[v][kx] + s) - ox - shear_x * z;
+      y[v] = F8::load(block.vertex[v][ky] + s) - oy - shear_y * z;
+      t[v] = z * inv_z;  // the bits of slab(): the least of the three is where the box begins along kz
+    }
+    const F8 edge_u = x[2] * y[1] - y[2] * x[1];
+    const F8 edge_v = x[0] * y[2] - y[0] * x[2];
+    const F8 edge_w = x[1] * y[0] - y[1] * x[0];
+    const F8 sum = abs_(x[0]) + abs_(y[0]) + (abs_(x[1]) + abs_(y[1])) + (abs_(x[2]) + abs_(y[2]));
+    const F8 error = f8(ray.edge_slope) * sum + f8(ray.edge_offset);
+    const F8 least = cull_min(cull_min(edge_u, edge_v), edge_w), greatest = cull_max(cull_max(edge_u, edge_v), edge_w);
+    const F8 first = cull_min(cull_min(t[0], t[1]), t[2]), last = cull_max(cull_max(t[0], t[1]), t[2]);
+    const Mask8 miss = ((least < -error) & (greatest > error)) | (first > f8(limit)) | (last < f8(0.0f));
+    bits |= (~to_bits(miss) & ((1u << kLanes8) - 1)) << s;
+  }
+  return bits;
+}
+
+struct StackEntry {
+  float near;
+  uint32_t child;
+};
+
+// Pushes the children in `bits` so that the nearest is popped first.
+HWY_INLINE int push_sorted(const BvhNode& node, uint32_t bits, const float* near, StackEntry* stack, int top) {
+  const int bottom = top;
+  for (; bits != 0; bits &= bits - 1) {
+    const int c = std::countr_zero(bits);
+    const StackEntry entry{near[c], node.child[c]};
+    int at = top++;
+    for (; at > bottom && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
+    stack[at] = entry;
+  }
+  return top;
+}
+
+// Tests the triangles of a leaf; true if the visitor wants to end.
+template <class Visitor>
+HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
+  const TriangleBlock& block = data.blocks[leaf_block(child)];
+  uint32_t bits = candidates(block, ray, visitor.limit) & ((2u << (leaf_triangles(child) - 1)) - 1);
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = std::countr_zero(bits);
+    double t;
+    if (hit_triangle(ray.exact, TriangleView{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth}, t) && visitor.hit(t, block.primitive[lane]))
+      return true;
+  }
+  return false;
+}
+
+// Visits what the ray may hit at or below `start` at no more than visitor.limit, near first. visitor.hit(t, primitive) is called
+// for every hit found and returns true to end.
+template <class Visitor>
+HWY_INLINE void traverse(const Bvh::Data& data, StackEntry start, const LaneRay& ray, Visitor& visitor) {
+  StackEntry stack[kBvhStackSize];
+  stack[0] = start;
+  int top = 1;
+  while (top > 0) {
+    const StackEntry entry = stack[--top];
+    if (entry.near > visitor.limit) continue;
+    if (entry.child & kLeafBit) {
+      if (visit_leaf(data, entry.child, ray, visitor)) return;
+      continue;
+    }
+    const BvhNode& node = data.nodes[entry.child];
+    alignas(32) float near[kBvhWidth];
+    const uint32_t bits = hit_children(node, ray, visitor.limit, near);
+    top = push_sorted(node, bits, near, stack, top);
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_TRAVERSE_INL_H_
