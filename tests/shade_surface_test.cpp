@@ -1,6 +1,7 @@
 // Hits -> surfaces: weights, position and its error bound, normals, footprint, against an oracle in long double.
 #include <gtest/gtest.h>
 
+#include "core/hash.h"
 #include "support/surface_scenes.h"
 
 namespace spanray {
@@ -306,6 +307,7 @@ TEST(ShadeSurface, MissesAreZero) {
 
 TEST(ShadeSurface, OneBitPatternForEveryInstructionSetAndBatchSplit) {
   TestRandom random(12);
+  Hash hash;
   for (const Shading shading : {Shading::kFlat, Shading::kPhong})
     for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear}) {
       auto t = full_frame(random_surface_scene(13, 60), random_camera(random, 3), 512, 512, Isa::kScalar);
@@ -316,6 +318,7 @@ TEST(ShadeSurface, OneBitPatternForEveryInstructionSetAndBatchSplit) {
       hits.primitive[50] = kNoPrimitive;
       SurfaceBatch want;
       resolve_surfaces(t->frame, hits, want);
+      for (const BatchField& f : batch_fields(want)) hash.add(f.data, 301 * sizeof(float));
       for (const Isa isa : supported_isas()) {
         t->frame.isa = isa;
         for (const int size : {1, 3, 16, 301}) {
@@ -332,6 +335,7 @@ TEST(ShadeSurface, OneBitPatternForEveryInstructionSetAndBatchSplit) {
         }
       }
     }
+  RecordProperty("hash", hash_text(hash.value()));  // to compare compilers by hand
 }
 
 TEST(ShadeSurface, PrimaryRaysAsABatch) {

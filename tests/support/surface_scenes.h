@@ -25,12 +25,15 @@ inline SceneData random_surface_scene(uint32_t seed, int triangles) {
   for (int i = 0; i < triangles; ++i) {
     const double size = std::pow(10.0, random.uniform(-2, 0.3));
     const glm::dvec3 a = random_point(random);
-    SoupTriangle t = soup_triangle(a, a + random_point(random, size), a + random_point(random, size), static_cast<uint32_t>(i % 6));
-    const auto uv = [&] { return glm::dvec2(random.uniform(-2, 2), random.uniform(-2, 2)); };
-    t = with_uv(t, uv(), uv(), uv());
-    if (i % 3) {
-      const glm::dvec3 n = random_point(random);
-      t = with_normals(t, n + random_point(random, 0.3), n + random_point(random, 0.3), n + random_point(random, 0.3));
+    // One draw a statement: compilers differ in the order in which they evaluate arguments.
+    const glm::dvec3 b = a + random_point(random, size);
+    const glm::dvec3 c = a + random_point(random, size);
+    SoupTriangle t = soup_triangle(a, b, c, static_cast<uint32_t>(i % 6));
+    const glm::dvec3 normal = random_point(random);
+    for (Vertex& v : t.corner) {
+      for (float& uv : v.uv) uv = static_cast<float>(random.uniform(-2, 2));
+      const glm::dvec3 n = normal + random_point(random, 0.3);
+      for (int k = 0; k < 3; ++k) v.normal[k] = i % 3 ? static_cast<float>(n[k]) : 0.0f;
     }
     soup.push_back(t);
   }
