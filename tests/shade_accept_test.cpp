@@ -1,0 +1,186 @@
+// accept(hit): alpha masks and screen-door, the same for rows of pixels and for rays.
+#include <gtest/gtest.h>
+
+#include "frame/transparency.h"
+#include "support/surface_scenes.h"
+
+namespace spanray {
+namespace {
+
+Material material_of_kind(MaterialTransparency kind, float opacity) {
+  Material m;
+  m.transparency = static_cast<int32_t>(kind);
+  m.opacity = opacity;
+  return m;
+}
+
+// A quad that fills the picture of the default camera, uv over [0, 4]^2, cut in two triangles of one material.
+std::unique_ptr<TestFrame> quad_frame(const Material& material, const std::function<void(SceneData&, Material&)>& setup = {}) {
+  const SoupTriangle a = with_uv(soup_triangle({-4, -4, 0}, {4, -4, -1}, {4, 4, 0}), {0, 0}, {4, 0}, {4, 4});
+  const SoupTriangle b = with_uv(soup_triangle({-4, -4, 0}, {4, 4, 0}, {-4, 4, 1}), {0, 0}, {4, 4}, {0, 4});
+  SceneData scene = make_test_scene({a, b}, {material});
+  if (setup) setup(scene, scene.materials[0]);
+  auto t = make_test_frame(std::move(scene), Camera{}, test_settings(128, 128));
+  plan_all(t->frame);
+  return t;
+}
+
+int popcount(uint32_t x) { return __builtin_popcount(x); }
+
+TEST(ShadeAccept, T4_ScreenDoorAcceptsExactlyTheRoundedShareOfEachMaskTile) {
+  for (const Isa isa : supported_isas())
+    for (int n = 0; n <= 256; ++n) {
+      const float opacity = static_cast<float>(n) / 256;
+      auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, opacity));
+      t->frame.isa = isa;
+      const int want = static_cast<int>(std::floor(opacity * 64 + 0.5f));
+      for (const int x0 : {0, 8, 72})
+        for (const int y0 : {0, 40}) {
+          int count = 0;
+          for (int y = y0; y < y0 + 8; ++y) count += popcount(accept_row(t->frame, 0, x0, y, 0xffu));
+          ASSERT_EQ(count, want) << opacity << " " << isa_name(isa);
+        }
+    }
+}
+
+TEST(ShadeAccept, T4_MorePixelsForMoreOpacityAndTheSameForEveryObject) {
+  auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, 0));
+  uint32_t before[8] = {};
+  for (int n = 0; n <= 64; ++n) {
+    t->scene.materials[0].opacity = static_cast<float>(n) / 64;
+    for (int y = 0; y < 8; ++y) {
+      const uint32_t now = accept_row(t->frame, 0, 0, y, 0xffffffffu);
+      EXPECT_EQ(now & before[y], before[y]) << "a pixel once accepted stays accepted";
+      EXPECT_EQ(now, accept_row(t->frame, 1, 0, y, 0xffffffffu)) << "the pattern knows no primitive";
+      before[y] = now;
+    }
+  }
+}
+
+TEST(ShadeAccept, ScreenDoorAtHalfIsACheckerboard) {
+  auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, 0.5f));
+  for (int y = 0; y < 8; ++y) EXPECT_EQ(accept_row(t->frame, 0, 0, y, 0xffu), y % 2 ? 0xaau : 0x55u) << y;
+}
+
+void checker_mask(SceneData& scene, Material& m) {
+  m.map_opacity = add_texture(scene, 4, 4, [](int x, int y) {
+    const uint16_t v = (x + y) % 2 ? 65535 : 0;
+    return Texel{v, v, v, v};
+  });
+}
+
+TEST(ShadeAccept, MaskCutsOutAtOneHalf) {
+  auto t = quad_frame(material_of_kind(MaterialTransparency::kMask, 1), checker_mask);
+  for (const Isa isa : supported_isas())
+    for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear}) {
+      t->frame.isa = isa, t->frame.settings.filter = filter;
+      int accepted = 0, checked = 0;
+      for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; x += 32) {
+          const uint32_t bits = accept_row(t->frame, 0, x, y, 0xffffffffu);
+          for (int i = 0; i < 32; ++i) {
+            const OracleHit h = oracle_hit(t->scene, 0, oracle_primary(t->frame, pack_pixel(static_cast<uint32_t>(x + i), static_cast<uint32_t>(y))));
+            Real uv[2];
+            oracle_uv(t->scene, 0, h.b, uv);
+            const Real s = uv[0] * 4 - std::floor(uv[0] * 4), r = uv[1] * 4 - std::floor(uv[1] * 4);
+            if (!h.inside || std::min(std::min(s, 1 - s), std::min(r, 1 - r)) < 0.02L) continue;  // the boundary itself
+            // Row 0 is on top: four rows, so (row) and (3 - row) differ in parity.
+            const bool opaque = (static_cast<int>(std::floor(uv[0] * 4)) + 3 - static_cast<int>(std::floor(uv[1] * 4))) % 2 != 0;
+            ASSERT_EQ((bits >> i & 1) != 0, opaque) << x + i << " " << y;
+            accepted += opaque, ++checked;
+          }
+        }
+      EXPECT_GT(checked, 5000);
+      EXPECT_NEAR(accepted, checked / 2, checked / 10);
+    }
+}
+
+TEST(ShadeAccept, OpacityTimesMapDecides) {
+  const auto gray = [](uint16_t v) { return [v](SceneData& scene, Material& m) { m.map_opacity = add_texture(scene, 4, 4, [v](int, int) { return Texel{v, v, v, v}; }); }; };
+  EXPECT_EQ(accept_row(quad_frame(material_of_kind(MaterialTransparency::kMask, 1), gray(128 * 257))->frame, 0, 40, 60, 0xffffu), 0xffffu);
+  EXPECT_EQ(accept_row(quad_frame(material_of_kind(MaterialTransparency::kMask, 1), gray(127 * 257))->frame, 0, 40, 60, 0xffffu), 0u);
+  EXPECT_EQ(accept_row(quad_frame(material_of_kind(MaterialTransparency::kMask, 0.9f), gray(128 * 257))->frame, 0, 40, 60, 0xffffu), 0u);
+  auto t = quad_frame(material_of_kind(MaterialTransparency::kMask, 0.9f), gray(128 * 257));
+  t->frame.settings.transparency = Transparency::kNone;  // opacity is ignored, the cut-out stays
+  EXPECT_EQ(accept_row(t->frame, 0, 40, 60, 0xffffu), 0xffffu);
+}
+
+// Rows and rays of the same pixels, for every kind, instruction set and split into rows.
+TEST(ShadeAccept, RowsAndPrimaryRaysAgreeBitForBit) {
+  TestRandom random(1);
+  for (const MaterialTransparency kind : {MaterialTransparency::kMask, MaterialTransparency::kScreenDoor}) {
+    auto t = quad_frame(material_of_kind(kind, 0.8f), [&](SceneData& scene, Material& m) {
+      m.map_opacity = add_texture(scene, 64, 64, [&](int, int) { return noise_texel(random); });
+    });
+    RayBatch rays;
+    rays.primary = true;
+    for (uint32_t y = 0; y < 128; y += 9)
+      for (uint32_t x = 0; x < 128; ++x) {
+        const glm::dvec3 d = t->frame.primary.corner + t->frame.primary.step_x * (x + 0.5) + t->frame.primary.step_y * (y + 0.5);
+        add_ray(rays, t->frame.primary.eye + d * t->frame.primary.near_plane, d, pack_pixel(x, y));
+      }
+    std::vector<uint32_t> want;
+    int accepted = 0;
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      for (int i = 0; i < rays.count; ++i) {
+        const int x = static_cast<int>(rays.pixel[static_cast<size_t>(i)] & 0xffff), y = static_cast<int>(rays.pixel[static_cast<size_t>(i)] >> 16);
+        for (const uint32_t primitive : {0u, 1u}) {
+          const uint32_t bit = accept_row(t->frame, primitive, x, y, 1u);
+          ASSERT_EQ(bit, accept_ray(t->frame, rays, i, primitive) ? 1u : 0u) << x << " " << y;
+          accepted += static_cast<int>(bit);
+          if (x % 32 == 0) {
+            const uint32_t row = accept_row(t->frame, primitive, x, y, 0xffffffffu);
+            ASSERT_EQ(row & 0x0ff0f00fu, accept_row(t->frame, primitive, x, y, 0x0ff0f00fu)) << "candidates only select";
+            want.push_back(row);
+          }
+        }
+      }
+    }
+    EXPECT_GT(accepted, 0);
+    const size_t each = want.size() / supported_isas().size();
+    for (size_t i = each; i < want.size(); ++i) ASSERT_EQ(want[i], want[i % each]);
+  }
+}
+
+TEST(ShadeAccept, OtherRaysUseTheMaskOfThePixelThatStartedThem) {
+  auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, 0.3f));
+  RayBatch rays;
+  for (uint32_t y = 0; y < 8; ++y)
+    for (uint32_t x = 0; x < 8; ++x) add_ray(rays, {3, 2, 1}, {0.1, 0.2, -1}, pack_pixel(x, y));
+  int count = 0;
+  for (int i = 0; i < 64; ++i) {
+    const bool accepted = accept_ray(t->frame, rays, i, 0);
+    EXPECT_EQ(accepted, (accept_row(t->frame, 0, i % 8, i / 8, 1u) & 1u) != 0);
+    count += accepted;
+  }
+  EXPECT_EQ(count, 19);  // round(0.3 * 64)
+}
+
+TEST(FrameTransparency, SettingsOverrideMaterials) {
+  using M = MaterialTransparency;
+  struct Case { M own; float opacity; bool map; M scene, none, alpha, door; };
+  const Case cases[] = {
+      {M::kOpaque, 1, false, M::kOpaque, M::kOpaque, M::kOpaque, M::kOpaque},
+      {M::kAlpha, 1, false, M::kOpaque, M::kOpaque, M::kOpaque, M::kOpaque},
+      {M::kAlpha, 0.5f, false, M::kAlpha, M::kOpaque, M::kAlpha, M::kScreenDoor},
+      {M::kScreenDoor, 0.5f, false, M::kScreenDoor, M::kOpaque, M::kAlpha, M::kScreenDoor},
+      {M::kMask, 1, true, M::kMask, M::kMask, M::kMask, M::kMask},
+      {M::kMask, 0.5f, true, M::kMask, M::kMask, M::kAlpha, M::kScreenDoor},
+      {M::kAlpha, 1, true, M::kAlpha, M::kMask, M::kAlpha, M::kScreenDoor},
+  };
+  for (const Case& c : cases) {
+    Material m = material_of_kind(c.own, c.opacity);
+    m.map_opacity = c.map ? 0 : -1;
+    Settings s;
+    const auto under = [&](Transparency t) { s.transparency = t; return effective_transparency(m, s); };
+    EXPECT_EQ(under(Transparency::kScene), c.scene);
+    EXPECT_EQ(under(Transparency::kNone), c.none);
+    EXPECT_EQ(under(Transparency::kAlpha), c.alpha);
+    EXPECT_EQ(material_flags(m, s), c.alpha == M::kAlpha ? kMaterialTranslucent : c.alpha == M::kOpaque ? 0u : kMaterialMasked);
+    EXPECT_EQ(under(Transparency::kScreenDoor), c.door);
+  }
+}
+
+}  // namespace
+}  // namespace spanray

@@ -1,0 +1,186 @@
+// Perturbed normals: height maps, normal maps, and where they must change nothing.
+#include <gtest/gtest.h>
+
+#include "support/surface_scenes.h"
+#include "support/texture_probe.h"
+
+namespace spanray {
+namespace {
+
+// A height ramp: dx, dy units of 1/65535 a texel to the right and *down*.
+int32_t add_slope(SceneData& scene, int size, int dx, int dy) {
+  return add_texture(scene, size, size, [&](int x, int y) {
+    const auto v = static_cast<uint16_t>(x * dx + y * dy);
+    return Texel{v, v, v, v};
+  });
+}
+
+Real3 unit(Real3 v) { return v * (1 / length_real(v)); }
+
+TEST(ShadeBump, SlopeIsHeightPerTexelTimesMultiplier) {
+  for (const float bm : {0.5f, 1.0f, -3.0f})
+    for (const auto& [sx, sy] : {std::pair{1.0f, 1.0f}, {-1.0f, 1.0f}, {1.0f, -1.0f}}) {
+      TextureProbe probe([&, sx = sx, sy = sy](SceneData& scene, Material& m) {
+        m.map_bump = add_slope(scene, 64, 700, -300 + 64 * 5);
+        TextureUse& use = scene.texture_uses[0];
+        use.bump_multiplier = bm, use.gain = 20, use.scale[0] = sx, use.scale[1] = sy;
+      });
+      TestRandom random(1);
+      for (int i = 0; i < 200; ++i) probe.add(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9));  // away from the wrap
+      for (const Isa isa : supported_isas()) {
+        const SurfaceBatch& s = probe.run(isa);
+        // n - bm (dh/ds T + dh/dt B); T = +x, B = +y of the probe, mirrored with the use; rows go down, t goes up.
+        const double slope_s = 700.0 / 65535 * 20 * static_cast<double>(bm), slope_t = -20.0 / 65535 * 20 * static_cast<double>(bm);
+        const Real3 want = unit({-slope_s * static_cast<double>(sx), -slope_t * static_cast<double>(sy), 1});
+        for (int i = 0; i < s.count; ++i) ASSERT_LE(length_real(real3(s.normal, i) - want), 1e-5L) << i;
+      }
+    }
+}
+
+TEST(ShadeBump, CoarserLevelsKeepTheSlope) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_bump = add_slope(scene, 256, 100, 150);
+    scene.texture_uses[0].gain = 100;
+  });
+  for (const double texels : {0.5, 1.0, 2.0, 3.0, 4.0, 8.0, 11.0}) probe.add(0.5, 0.5, texels / 256, texels / 256);
+  const Real3 want = unit({-100.0 * 100 / 65535, 150.0 * 100 / 65535, 1});
+  for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear}) {
+    probe.frame().settings.filter = filter;
+    const SurfaceBatch& s = probe.run();
+    for (int i = 0; i < s.count; ++i) EXPECT_LE(length_real(real3(s.normal, i) - want), 2e-3L) << i;
+  }
+}
+
+// A rotated, mirrored, sheared mapping: the bumped normal must tilt against the world gradient of the height.
+TEST(ShadeBump, TiltsAwayFromTheGradientWhateverTheMapping) {
+  TestRandom random(2);
+  for (int n = 0; n < 50; ++n) {
+    const auto uv = [&] { return glm::dvec2(random.uniform(0.2, 0.8), random.uniform(0.2, 0.8)); };
+    const glm::dvec2 a = uv(), b = uv(), c = uv();
+    if (std::fabs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) < 0.05) continue;
+    SceneData scene = make_test_scene({with_uv(soup_triangle({-1, -1, 0.2}, {1, -0.8, -0.3}, {0, 1, 0.1}), a, b, c)});
+    scene.materials[0].map_bump = add_slope(scene, 64, 500, 0);  // rises with u only
+    scene.texture_uses[0].gain = 10;
+    auto t = make_test_frame(std::move(scene), Camera{}, test_settings(64, 64));
+    plan_all(t->frame);
+    HitBatch hits;
+    add_hit(hits, pack_pixel(32, 32), 0, 0);
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    // Gradient of u in the plane of the triangle: g . e1 = du1, g . e2 = du2, g . n = 0.
+    const Real3 e1 = oracle_vertex(t->scene, 0, 1) - oracle_vertex(t->scene, 0, 0), e2 = oracle_vertex(t->scene, 0, 2) - oracle_vertex(t->scene, 0, 0);
+    const auto u = [&](int i) { return static_cast<Real>(t->scene.vertices[t->scene.triangles[0].vertex[i]].uv[0]); };
+    const Real3 normal = cross_real(e1, e2);
+    const Real3 g = unit(cross_real(e2, normal) * (u(1) - u(0)) + cross_real(normal, e1) * (u(2) - u(0)));
+    const Real3 want = unit(real3(s.geometric_normal, 0) - g * (500.0L / 65535 * 10));
+    EXPECT_LE(length_real(real3(s.normal, 0) - want), 1e-5L) << n;
+  }
+}
+
+SceneData bumpy_scene(TestRandom& random) {
+  SceneData scene = random_surface_scene(3, 60);
+  const int32_t noise = add_texture(scene, 32, 32, [&](int, int) { return noise_texel(random); });
+  for (Material& m : scene.materials) m.map_bump = noise, m.map_normal = -1;
+  return scene;
+}
+
+TEST(ShadeBump, S7_AmplitudeZeroIsUnbumped) {
+  TestRandom random(4);
+  auto t = make_test_frame(bumpy_scene(random), random_camera(random, 3), test_settings(256, 256));
+  plan_all(t->frame);
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 500, hits);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch bumped, zero, off;
+    resolve_surfaces(t->frame, hits, bumped);
+    TextureUse& use = t->scene.texture_uses.back();
+    use.bump_multiplier = 0;
+    resolve_surfaces(t->frame, hits, zero);
+    use.bump_multiplier = 1;
+    t->frame.plan.bump = false;
+    resolve_surfaces(t->frame, hits, off);
+    t->frame.plan.bump = true;
+    int moved = 0;
+    for (int i = 0; i < hits.count; ++i) {
+      ASSERT_TRUE(same_surface(zero, i, off, i)) << i;
+      moved += bits_of(bumped.normal[0][i]) != bits_of(off.normal[0][i]);
+    }
+    EXPECT_GT(moved, 200);  // the others are so small that they see the last level, which is flat
+  }
+}
+
+TEST(ShadeBump, S7_NormalsBelowTheHorizonAreClampedToIt) {
+  TestRandom random(5);
+  auto t = make_test_frame(bumpy_scene(random), random_camera(random, 3), test_settings(256, 256));
+  plan_all(t->frame);
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 1000, hits);
+  for (const float bm : {1.0f, 50.0f, 1e6f, 1e38f, -1e38f}) {
+    t->scene.texture_uses.back().bump_multiplier = bm;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    int clamped = 0;
+    for (int i = 0; i < hits.count; ++i) {
+      const Real cosine = dot_real(real3(s.normal, i), real3(s.geometric_normal, i));
+      ASSERT_GE(cosine, 0x1p-10L / 1.5L) << i;  // a lifted normal is at least as steep, up to its length before
+      ASSERT_NEAR(static_cast<double>(length_real(real3(s.normal, i))), 1, 1e-6);
+      clamped += cosine < 0x1.1p-10L;
+    }
+    EXPECT_GT(clamped, bm == 1 ? 0 : 50) << bm;
+  }
+}
+
+TEST(ShadeBump, I5_ZeroUvAreaAndZeroTangentsLeaveTheNormal) {
+  const auto tri = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return with_uv(soup_triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}), a, b, c); };
+  std::vector<SoupTriangle> soup = {
+      tri({0.3, 0.3}, {0.3, 0.3}, {0.3, 0.3}),  // all equal
+      tri({0, 0}, {1, 0}, {0.5, 0}),            // along u
+      tri({0, 0}, {1, 1}, {0.5, 0.5}),          // along a line
+      with_normals(tri({0, 0}, {1, 0}, {0.5, 1}), {1, 0, 0}, {1, 0, 0}, {1, 0, 0}),  // u grows along the normal
+      tri({0, 0}, {1e-38, 0}, {0, 1e-38}),
+      tri({0, 0}, {1e30, 0}, {0, 1e30}),
+  };
+  SceneData scene = make_test_scene(soup, {Material{}});
+  TestRandom random(6);
+  scene.materials[0].map_bump = scene.materials[0].map_normal = add_texture(scene, 32, 32, [&](int, int) { return noise_texel(random); });
+  auto t = make_test_frame(std::move(scene), Camera{}, test_settings(64, 64));
+  HitBatch hits;
+  for (uint32_t p = 0; p < soup.size(); ++p)
+    for (uint32_t y = 24; y < 40; ++y) add_hit(hits, pack_pixel(32, y), 0, p);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch plain, s;
+    t->frame.plan = PlanFlags{};
+    resolve_surfaces(t->frame, hits, plain);
+    t->frame.plan.bump = true;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 0; i < hits.count; ++i)
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(std::isfinite(s.normal[k][i]));
+        if (hits.primitive[static_cast<size_t>(i)] < 4) {
+          ASSERT_EQ(bits_of(s.normal[k][i]), bits_of(plain.normal[k][i])) << hits.primitive[static_cast<size_t>(i)];
+        }
+      }
+  }
+}
+
+TEST(ShadeBump, NormalMapIsInTangentSpaceWithYUp) {
+  const auto texel = [](int r, int g, int b) { return Texel{static_cast<uint16_t>(r * 257), static_cast<uint16_t>(g * 257), static_cast<uint16_t>(b * 257), 65535}; };
+  struct Case { int r, g, b; Real3 want; };
+  for (const Case& c : {Case{128, 128, 255, {0, 0, 1}}, Case{192, 128, 255, unit({64.0L / 127, 0, 1})}, Case{128, 192, 255, unit({0, 64.0L / 127, 1})},
+                        Case{64, 100, 200, unit({-64.0L / 127, -28.0L / 127, 72.0L / 127})}}) {
+    TextureProbe probe([&](SceneData& scene, Material& m) {
+      m.map_normal = add_texture(scene, 8, 8, [&](int, int) { return texel(c.r, c.g, c.b); });
+    });
+    probe.add(0.3, 0.4);
+    const SurfaceBatch& s = probe.run();
+    EXPECT_LE(length_real(real3(s.normal, 0) - c.want), 1e-6L) << c.r << " " << c.g << " " << c.b;
+    if (c.r == 128 && c.g == 128) {
+      EXPECT_EQ(s.normal[2][0], 1);  // flat is exactly flat
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spanray

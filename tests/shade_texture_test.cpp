@@ -1,0 +1,331 @@
+// Texture sampling through whole surfaces: filters, wrapping, level of detail, maps of a material.
+#include <gtest/gtest.h>
+
+#include "math/color.h"
+#include "support/surface_scenes.h"
+#include "support/texture_probe.h"
+
+namespace spanray {
+namespace {
+
+constexpr Filter kFilters[] = {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear};
+
+TEST(ShadeTexture, I8_SrgbBytesSurviveSamplingAtTexelCenters) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_diffuse = add_texture(scene, 256, 2, [](int x, int) {
+      const uint16_t v = linear16_from_srgb8(static_cast<uint8_t>(x));
+      return Texel{v, v, v, v};
+    });
+  });
+  for (int x = 0; x < 256; ++x) probe.add((x + 0.5) / 256, 0.25), probe.add((x + 0.5) / 256, 0.75, 1.0 / 256, 1.0 / 2);
+  for (const Isa isa : supported_isas())
+    for (const Filter filter : kFilters) {
+      probe.frame().settings.filter = filter;
+      const SurfaceBatch& s = probe.run(isa);
+      for (int i = 0; i < s.count; ++i) ASSERT_EQ(srgb8_from_linear(s.diffuse[0][i]), i / 2) << isa_name(isa);
+    }
+}
+
+TEST(ShadeTexture, I8_BlitOneToOneThroughTheCamera) {
+  TestRandom random(1);
+  uint8_t code[64][64];
+  for (auto& row : code)
+    for (uint8_t& c : row) c = static_cast<uint8_t>(random.bits());
+  Material m;
+  m.diffuse[0] = m.diffuse[1] = m.diffuse[2] = 1;
+  SoupTriangle a = with_uv(soup_triangle({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}), {0, 0}, {1, 0}, {1, 1});
+  SoupTriangle b = with_uv(soup_triangle({-32, -32, 0}, {32, 32, 0}, {-32, 32, 0}), {0, 0}, {1, 1}, {0, 1});
+  SceneData scene = make_test_scene({a, b}, {m});
+  scene.materials[0].map_diffuse = add_texture(scene, 64, 64, [&](int x, int y) {
+    const uint16_t v = linear16_from_srgb8(code[y][x]);
+    return Texel{v, v, v, v};
+  });
+  Camera camera;
+  camera.fov_y_degrees = 90;
+  camera.eye[2] = 32;
+  auto t = make_test_frame(std::move(scene), camera, test_settings(64, 64));
+  plan_all(t->frame);
+  HitBatch hits;
+  for (uint32_t y = 0; y < 64; ++y)
+    for (uint32_t x = 0; x < 64; ++x) add_hit(hits, pack_pixel(x, y), 0, 63 - y > x ? 1 : 0);
+  for (const Isa isa : supported_isas())
+    for (const Filter filter : kFilters) {
+      t->frame.isa = isa, t->frame.settings.filter = filter;
+      SurfaceBatch s;
+      resolve_surfaces(t->frame, hits, s);
+      for (int i = 0; i < 64 * 64; ++i) ASSERT_EQ(srgb8_from_linear(s.diffuse[1][i]), code[i / 64][i % 64]) << i;  // row 0 on top
+    }
+}
+
+// Bilinear by definition, in long double, weights not quantised.
+Real bilinear_oracle(const SceneData& scene, const Texture& t, bool clamp, Real u, Real v) {
+  const auto texel = [&](Real fx, Real fy) {
+    int x = static_cast<int>(fx), y = static_cast<int>(fy);
+    const auto wrap = [&](int i, int n) { return clamp ? std::min(std::max(i, 0), n - 1) : ((i % n) + n) % n; };
+    x = wrap(x, t.width), y = wrap(y, t.height);
+    return static_cast<Real>(scene.texels[static_cast<size_t>(t.offset[0] + y * t.width + x)].r) / 65535;
+  };
+  if (clamp) u = std::min(std::max(u, Real(0)), Real(1)), v = std::min(std::max(v, Real(0)), Real(1));
+  const Real x = u * t.width - Real(0.5), y = (1 - v) * t.height - Real(0.5);
+  const Real x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
+  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) + (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
+}
+
+TEST(ShadeTexture, BilinearFollowsTheDefinitionWithinTheWeightStep) {
+  TestRandom random(2);
+  for (const auto& [w, h] : {std::pair{64, 64}, {128, 2}, {1, 8}, {1, 1}, {5, 3}, {3, 7}})
+    for (const int clamp : {0, 1}) {
+      TextureProbe probe([&, w = w, h = h](SceneData& scene, Material& m) {
+        m.map_diffuse = add_texture(scene, w, h, [&](int, int) { return noise_texel(random); });
+        TextureUse& use = scene.texture_uses.back();
+        use.clamp = clamp, use.scale[0] = 1.7f, use.scale[1] = -0.6f, use.offset[0] = 0.3f, use.offset[1] = -0.1f;
+      });
+      probe.frame().settings.filter = Filter::kBilinear;
+      for (int i = 0; i < 500; ++i) probe.add(random.uniform(-3.9, 1.9), random.uniform(-3.9, 1.9));
+      const SurfaceBatch& s = probe.run();
+      for (int i = 0; i < s.count; ++i) {
+        const OracleRay r = oracle_ray(probe.rays(), i);
+        const Real u = r.origin.x * Real(1.7f) + Real(0.3f), v = r.origin.y * Real(-0.6f) + Real(-0.1f);
+        const Real want = bilinear_oracle(probe.scene(), probe.scene().textures[0], clamp != 0, u, v);
+        ASSERT_NEAR(s.diffuse[0][i], static_cast<double>(want), 1.0 / 256 + 1e-5) << w << "x" << h << " " << clamp << " " << i;
+      }
+    }
+}
+
+TEST(ShadeTexture, I3_ConstantTextureIsExactlyConstant) {
+  for (const uint16_t value : {uint16_t{0}, uint16_t{1}, uint16_t{12345}, uint16_t{65535}}) {
+    TextureProbe probe([&](SceneData& scene, Material& m) {
+      m.map_diffuse = add_texture(scene, 64, 32, [&](int, int) { return Texel{value, value, value, value}; });
+    });
+    TestRandom random(3);
+    for (int i = 0; i < 1000; ++i)
+      probe.add(random.uniform(-3, 1.9), random.uniform(-3, 1.9), random.uniform(0, 0.3), random.uniform(0, 0.3));
+    for (const Filter filter : kFilters) {
+      probe.frame().settings.filter = filter;
+      const SurfaceBatch& s = probe.run();
+      for (int i = 0; i < s.count; ++i) ASSERT_EQ(s.diffuse[0][i], static_cast<float>(value) * (1.0f / 65535)) << value;
+    }
+  }
+  EXPECT_EQ(65535 * (1.0f / 65535), 1.0f);
+}
+
+TEST(ShadeTexture, VIsUpAndUIsRight) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_diffuse = add_texture(scene, 2, 2, [](int x, int y) { return Texel{static_cast<uint16_t>(x * 65535), static_cast<uint16_t>(y * 65535), 0, 0}; });
+  });
+  probe.add(0.25, 0.25), probe.add(0.75, 0.75);
+  probe.frame().settings.filter = Filter::kNearest;
+  const SurfaceBatch& s = probe.run();
+  EXPECT_EQ(s.diffuse[0][0], 0);
+    EXPECT_EQ(s.diffuse[1][0], 1);  // v = 0 is the last row stored
+  EXPECT_EQ(s.diffuse[0][1], 1);
+    EXPECT_EQ(s.diffuse[1][1], 0);
+}
+
+TEST(ShadeTexture, I6_LevelOfDetailFollowsLog2AndIsMonotoneAndClamped) {
+  constexpr int kStep = 4096;
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_diffuse = add_texture(scene, 1024, 1024, [](int, int) { return Texel{0, 0, 0, 0}; });
+    fill_levels(scene, [](int k) { return static_cast<uint16_t>(k * kStep); });
+  });
+  std::vector<double> sizes;
+  for (int i = -600; i <= 3000; ++i) sizes.push_back(std::pow(2.0, i / 200.0));
+  for (const double texels : sizes) probe.add(0.3, 0.4, texels / 1024, texels / 4096);
+  for (const double texels : sizes) probe.add(0.3, 0.4, texels / 4096, texels / 1024);
+  for (const Filter filter : kFilters) {
+    probe.frame().settings.filter = filter;
+    const SurfaceBatch& s = probe.run();
+    const int n = static_cast<int>(sizes.size());
+    for (int i = 0; i < n; ++i) {
+      const double level = s.diffuse[0][i] * 65535.0 / kStep, want = std::min(std::max(std::log2(sizes[static_cast<size_t>(i)]), 0.0), 10.0);
+      ASSERT_EQ(s.diffuse[0][i], s.diffuse[0][n + i]);
+      if (i > 0) {
+        ASSERT_GE(s.diffuse[0][i], s.diffuse[0][i - 1]);
+      }
+      if (filter == Filter::kTrilinear)
+        ASSERT_NEAR(level, want, 0.6 / 256);
+      else
+        ASSERT_NEAR(level, want, 0.5 + 0.6 / 256);
+    }
+  }
+}
+
+TEST(ShadeTexture, I6_InfiniteAndNanFootprintsGiveTheLastLevel) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_diffuse = add_texture(scene, 64, 64, [](int, int) { return Texel{0, 0, 0, 0}; });
+    fill_levels(scene, [](int k) { return static_cast<uint16_t>(k * 1000); });
+  });
+  for (const double step : {1e10, 1e30, static_cast<double>(INFINITY), static_cast<double>(NAN)})
+    probe.add(0.3, 0.4, step, 0), probe.add(0.3, 0.4, 0, -step);
+  for (const Isa isa : supported_isas()) {
+    const SurfaceBatch& s = probe.run(isa);
+    for (int i = 0; i < s.count; ++i) EXPECT_NEAR(s.diffuse[0][i], 6000.0 / 65535, 1e-6) << i;
+  }
+}
+
+TEST(ShadeTexture, I6_GroundPlaneToTheHorizon) {
+  Material m;
+  m.diffuse[0] = m.diffuse[1] = m.diffuse[2] = 1;
+  SoupTriangle tri = with_uv(soup_triangle({-1e6, 0, 1e6}, {1e6, 0, 1e6}, {0, 0, -1e6}), {-1e6, -1e6}, {1e6, -1e6}, {0, 1e6});
+  SceneData scene = make_test_scene({tri}, {m});
+  scene.materials[0].map_diffuse = add_texture(scene, 256, 256, [](int, int) { return Texel{0, 0, 0, 0}; });
+  fill_levels(scene, [](int k) { return static_cast<uint16_t>(k * 4096); });
+  Camera camera;
+  camera.eye[1] = camera.target[1] = 1;
+  camera.target[2] = -1;
+  auto t = make_test_frame(std::move(scene), camera, test_settings(512, 512));
+  plan_all(t->frame);
+  HitBatch hits;
+  for (uint32_t y = 512; y-- > 250;) add_hit(hits, pack_pixel(256, y), 0, 0);  // up to the horizon at 256, and past it
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch s;
+    resolve_surfaces(t->frame, hits, s);
+    for (int i = 0; i < s.count; ++i) {
+      ASSERT_TRUE(std::isfinite(s.diffuse[0][i]));
+      if (i > 0 && i < 256) {
+        ASSERT_GE(s.diffuse[0][i], s.diffuse[0][i - 1]) << i;
+      }
+    }
+    EXPECT_EQ(s.diffuse[0][255], 8 * 4096 * (1.0f / 65535));
+    EXPECT_LT(s.diffuse[0][0], 4096 * 2.0f / 65535);
+  }
+}
+
+// A ramp over 4096 texels turns the sample into the coordinate that was read.
+int32_t add_ramp(SceneData& scene) {
+  return add_texture(scene, 4096, 1, [](int x, int) { const auto v = static_cast<uint16_t>(16 * x); return Texel{v, v, v, v}; });
+}
+double texel_read(float value) { return value * 65535.0 / 16 + 0.5; }
+
+TEST(ShadeTexture, I7_HugeUv) {
+  TestRandom random(4);
+  for (const double scale : {1e3, 1e4, 1e5, 1e6, 1e7}) {
+    TextureProbe probe([](SceneData& scene, Material& m) { m.map_diffuse = add_ramp(scene); }, scale);
+    probe.frame().settings.filter = Filter::kBilinear;
+    for (int i = 0; i < 1000; ++i) probe.add(random.uniform(-3.9, 1.9), random.uniform(-3.9, 1.9));
+    const SurfaceBatch& s = probe.run();
+    int checked = 0;
+    for (int i = 0; i < s.count; ++i) {
+      const OracleHit hit = oracle_hit(probe.scene(), 0, oracle_ray(probe.rays(), i));
+      Real uv[2];
+      oracle_uv(probe.scene(), 0, hit.b, uv);
+      const double texel = static_cast<double>((uv[0] - std::floor(uv[0])) * 4096);
+      if (texel < 2 || texel > 4094) continue;  // the jump of the ramp
+      ++checked;
+      const double ulp = std::ldexp(1.0, std::ilogb(static_cast<double>(uv[0])) - 23);
+      ASSERT_NEAR(texel_read(s.diffuse[0][i]), texel, ulp * 4096 + 1.0 / 256) << scale;
+    }
+    EXPECT_GT(checked, 900);
+  }
+}
+
+TEST(ShadeTexture, I7_NeverOutOfBounds) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {2, 1}, {64, 32}, {1, 256}}) {
+    TextureProbe probe([&, w = w, h = h](SceneData& scene, Material& m) {
+      const auto guard = [&] { add_texture(scene, 64, 64, [](int, int) { return Texel{65535, 65535, 65535, 65535}; }); };
+      guard();
+      m.map_diffuse = add_texture(scene, w, h, [](int, int) { return Texel{1000, 1000, 1000, 1000}; });
+      guard();
+    });
+    for (const double x : {0.0, 1.0, -1.0, 0.5, 1 - 1e-9, -1e-9, 1e-30, -1e-30, -3.9, 1.9})
+      for (const double y : {0.0, 1.0, -1.0, 1 - 1e-9, -1e-9, 0.3})
+        for (const double step : {0.0, 1e-3, 1.0, 1e9}) probe.add(x, y, step, step);
+    TextureUse& use = probe.scene().texture_uses[1];
+    for (const Isa isa : supported_isas())
+      for (const Filter filter : kFilters)
+        for (const int clamp : {0, 1})
+          for (const float scale : {1.0f, -1.0f, 1e7f, 1e20f, 3e38f, INFINITY, NAN}) {
+            use.scale[0] = scale, use.scale[1] = -scale, use.clamp = clamp, use.offset[0] = scale > 1e30f ? -scale : 0;
+            probe.frame().settings.filter = filter;
+            const SurfaceBatch& s = probe.run(isa);
+            for (int i = 0; i < s.count; ++i) ASSERT_EQ(s.diffuse[0][i], 1000 * (1.0f / 65535)) << w << "x" << h << " " << scale << " " << i;
+          }
+  }
+}
+
+TEST(ShadeTexture, I7_OneIsZero) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    TestRandom random(5);
+    m.map_diffuse = add_texture(scene, 64, 64, [&](int, int) { return noise_texel(random); });
+  });
+  for (const double x : {0.0, 1.0, -1.0, -2.0}) probe.add(x, 0.37), probe.add(0.37, x);
+  for (const Filter filter : kFilters) {
+    probe.frame().settings.filter = filter;
+    const SurfaceBatch& s = probe.run();
+    for (int i = 2; i < s.count; ++i) EXPECT_EQ(s.diffuse[0][i], s.diffuse[0][i & 1]) << i;
+  }
+}
+
+TEST(ShadeTexture, I1_RatioOfAMillionReadsTheRightTexel) {
+  Material m;
+  m.diffuse[0] = m.diffuse[1] = m.diffuse[2] = 1;
+  SoupTriangle tri = with_uv(soup_triangle({-0.7, -0.4, -1}, {6e5, -5e5, -1e6}, {-2e3, 5e5, -1e6}), {0, 0}, {1, 0}, {0.3, 1});
+  SceneData scene = make_test_scene({tri}, {m});
+  scene.materials[0].map_diffuse = add_ramp(scene);
+  auto t = make_test_frame(std::move(scene), Camera{}, test_settings(16, 16));
+  plan_all(t->frame);
+  t->frame.settings.filter = Filter::kBilinear;
+  TestRandom random(6);
+  RayBatch rays;  // without differentials: level 0 throughout
+  HitBatch hits;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 p = point_on(t->scene, 0, random);
+    add_hit(hits, 0, static_cast<uint32_t>(add_ray(rays, {0, 0, 0}, p * (1 / -p.z))), 0);
+  }
+  hits.rays = &rays;
+  SurfaceBatch s;
+  resolve_surfaces(t->frame, hits, s);
+  for (int i = 0; i < s.count; ++i) {
+    const OracleHit hit = oracle_hit(t->scene, 0, oracle_ray(rays, i));
+    Real uv[2];
+    oracle_uv(t->scene, 0, hit.b, uv);
+    if (!hit.inside || uv[0] < 1e-3L || uv[0] > 0.999L) continue;
+    ASSERT_NEAR(texel_read(s.diffuse[0][i]), static_cast<double>(uv[0] * 4096), 1.0 / 256) << i;
+  }
+}
+
+TEST(ShadeTexture, MapsScaleTheirFields) {
+  const auto gray = [](uint16_t v) { return [v](int, int) { return Texel{v, v, v, v}; }; };
+  TextureProbe probe([&](SceneData& scene, Material& m) {
+    m.map_diffuse = add_texture(scene, 4, 4, gray(6553)), m.map_specular = add_texture(scene, 4, 4, gray(13107));
+    m.map_shininess = add_texture(scene, 4, 4, gray(19660)), m.map_emission = add_texture(scene, 4, 4, gray(26214));
+    m.map_opacity = add_texture(scene, 4, 4, gray(32767)), m.map_ambient = -1;
+    m.opacity = 0.5f;
+    TextureUse& use = scene.texture_uses[static_cast<size_t>(m.map_emission)];
+    use.base = 0.5f, use.gain = 2;
+  });
+  probe.add(0.3, 0.3);
+  {
+    const SurfaceBatch& s = probe.run();
+    EXPECT_NEAR(s.diffuse[0][0], 0.1, 1e-4);
+    EXPECT_NEAR(s.ambient[1][0], 0.1, 1e-4);
+    EXPECT_NEAR(s.specular[2][0], 0.2, 1e-4);
+    EXPECT_NEAR(s.mirror[0][0], 0.2, 1e-4);
+    EXPECT_NEAR(s.shininess[0], 30, 1e-2);
+    EXPECT_NEAR(s.emission[0][0], 0.5 + 2 * 0.4, 1e-4);
+    EXPECT_NEAR(s.opacity[0], 0.25, 1e-4);
+  }
+  probe.scene().materials[0].map_ambient = probe.scene().materials[0].map_opacity;
+  EXPECT_NEAR(probe.run().ambient[0][0], 0.5, 1e-4);
+  probe.frame().plan.textures = false;
+  const SurfaceBatch& s = probe.run();
+  EXPECT_EQ(s.diffuse[0][0], 1);
+    EXPECT_EQ(s.ambient[0][0], 1);
+    EXPECT_EQ(s.shininess[0], 100);
+}
+
+TEST(ShadeTexture, ChannelsOfScalarMaps) {
+  TextureProbe probe([](SceneData& scene, Material& m) {
+    m.map_shininess = add_texture(scene, 2, 2, [](int, int) { return Texel{6554, 13107, 26214, 52428}; });
+  });
+  probe.add(0.3, 0.3);
+  const double want[] = {0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4, 0.1, 0.2, 0.4, 0.8, 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4};
+  for (int channel = -1; channel <= 4; ++channel) {
+    probe.scene().texture_uses[0].channel = channel;
+    EXPECT_NEAR(probe.run().shininess[0], 100 * want[channel + 1], 2e-3) << channel;
+  }
+}
+
+}  // namespace
+}  // namespace spanray
