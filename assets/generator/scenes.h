@@ -1,0 +1,29 @@
+// The shipped scenes, each a mesh with its materials, lights and cameras.
+#pragma once
+#include <map>
+#include <string>
+
+#include "obj_mesh.h"
+#include "picture.h"
+
+namespace spanray::assets {
+
+struct SceneFiles {
+  ObjMesh mesh;
+  std::string mtl, toml;
+};
+
+SceneFiles make_cornell();
+SceneFiles make_spheres();
+SceneFiles make_columns();
+SceneFiles make_gauze();
+SceneFiles make_glass();
+
+// By name, without extension; and the textures by path, relative to the folder of the scenes.
+std::map<std::string, SceneFiles> make_scenes();
+std::map<std::string, Picture> make_textures();
+
+// Writes NAME.obj, NAME.mtl, NAME.toml and textures/ into an existing folder.
+Result<void> write_assets(const std::string& folder);
+
+}  // namespace spanray::assets
