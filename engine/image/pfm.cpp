@@ -55,23 +55,33 @@ Result<FloatImage> decode_pfm(std::string_view rest) {
   return image;
 }
 
-}  // namespace
-
-Result<void> write_pfm(const std::string& path, const FloatImage& image) {
-  const size_t row = 3 * static_cast<size_t>(std::max(image.width, 0)), height = static_cast<size_t>(std::max(image.height, 0));
-  if (row == 0 || height == 0 || image.rgb.size() != row * height)
+Result<void> write_floats(const std::string& path, const char* kind, int channels, int image_width, int image_height,
+                          const std::vector<float>& values) {
+  const size_t row = static_cast<size_t>(channels) * static_cast<size_t>(std::max(image_width, 0));
+  const size_t height = static_cast<size_t>(std::max(image_height, 0));
+  if (row == 0 || height == 0 || values.size() != row * height)
     return Error{"cannot write a picture whose size and values disagree", path};
-  std::string bytes = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+  std::string bytes = std::string(kind) + "\n" + std::to_string(image_width) + " " + std::to_string(image_height) + "\n-1.0\n";
   bytes.reserve(bytes.size() + row * height * 4);
   for (size_t y = height; y-- > 0;)
     for (size_t i = 0; i < row; ++i) {
-      uint32_t bits = std::bit_cast<uint32_t>(image.rgb[y * row + i]);
+      uint32_t bits = std::bit_cast<uint32_t>(values[y * row + i]);
       if (std::endian::native == std::endian::big) bits = swap_bytes(bits);
       char word[4];
       std::memcpy(word, &bits, 4);
       bytes.append(word, 4);
     }
   return write_file_atomic(path, bytes);
+}
+
+}  // namespace
+
+Result<void> write_pfm(const std::string& path, const FloatImage& image) {
+  return write_floats(path, "PF", 3, image.width, image.height, image.rgb);
+}
+
+Result<void> write_pfm_gray(const std::string& path, int width, int height, const std::vector<float>& values) {
+  return write_floats(path, "Pf", 1, width, height, values);
 }
 
 Result<FloatImage> read_pfm(const std::string& path) {

@@ -15,6 +15,8 @@ struct FloatImage {
 
 // Writes "PF", little endian, bottom row first as the format wants; atomically (core/atomic_file.h). NaN and infinities are kept.
 Result<void> write_pfm(const std::string& path, const FloatImage& image);
+// The same as "Pf": one float a pixel, top row first.
+Result<void> write_pfm_gray(const std::string& path, int width, int height, const std::vector<float>& values);
 // Reads "PF" (RGB) and "Pf" (gray, copied to three channels), both byte orders; the scale's magnitude is ignored.
 // Errors: unreadable, another format, a bad header, truncated, a side over 16384.
 Result<FloatImage> read_pfm(const std::string& path);

@@ -1,0 +1,41 @@
+// What all commands of the program share: how they are registered, how they end, how they speak.
+#pragma once
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "spanray/result.h"
+
+namespace spanray::demo {
+
+enum ExitCode : int { kDone = 0, kCouldNot = 1, kWrongUsage = 2 };
+
+// Wrong usage that the parser could not see, such as a camera name that the scene does not have. main turns it into exit 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Each command adds its subcommand to `app`; when that is chosen, it sets `run`, which main calls after parsing.
+using Run = std::function<int()>;
+void add_render(CLI::App& app, Run& run);
+void add_info(CLI::App& app, Run& run);
+void add_compare(CLI::App& app, Run& run);
+void add_why(CLI::App& app, Run& run);
+void add_walk(CLI::App& app, Run& run);
+// Commands of the design that this version lacks: they say so and end with exit 2.
+void add_missing(CLI::App& app, Run& run);
+
+// stderr, one line, "spanray: ..." before it.
+void message(const std::string& text);
+// The same as an error; returns kCouldNot.
+int fail(const Error& error);
+int fail(const std::string& text);
+
+// The compiler that built the program, e.g. "GCC 12.2.0".
+std::string compiler_name();
+// The text of --version.
+std::string version_text();
+
+}  // namespace spanray::demo

@@ -1,0 +1,132 @@
+// spanray render: one scene, headless, to files.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "command.h"
+#include "core/atomic_file.h"
+#include "core/hash.h"
+#include "frame/ladder.h"
+#include "frame_options.h"
+#include "image/pfm.h"
+#include "picture.h"
+#include "stats_json.h"
+
+namespace spanray::demo {
+namespace {
+
+constexpr int kMaxFrames = 1000000;
+
+struct RenderOptions {
+  FrameOptions frame;
+  std::string out, stats, ladder, radiance, depth;
+  int frames = 1, warmup = 0;
+  bool hash = false, ids_hash = false;
+
+  // The files that will be written.
+  std::vector<std::string> files() const {
+    std::vector<std::string> list;
+    for (const std::string* file : {&out, &ladder, &radiance, &depth, &stats})
+      if (!file->empty() && !(file == &stats && stats == "-")) list.push_back(*file);
+    return list;
+  }
+};
+
+// Two names of one file, whether it is there or not.
+bool same_place(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(a, ignored), ignored) == fs::weakly_canonical(fs::absolute(b, ignored), ignored);
+}
+
+// Everything about the outputs that can be known before loading and rendering.
+Result<void> check_outputs(const RenderOptions& options) {
+  const std::vector<std::string> files = options.files();
+  if (files.empty() && options.stats.empty() && !options.hash && !options.ids_hash)
+    throw UsageError("render: nothing to do; give --out F.png, --hash, --stats or another output");
+  if (options.stats == "-" && (options.hash || options.ids_hash))
+    throw UsageError("render: --stats - and a hash would share standard output; the statistics have `hash` in them");
+  if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
+    throw UsageError("render: --out writes PNG, so its file must end in .png: " + options.out);
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (same_place(files[i], options.frame.scene_path())) throw UsageError("render: " + files[i] + " is the scene itself");
+    for (size_t j = 0; j < i; ++j)
+      if (same_place(files[i], files[j]))
+        throw UsageError("render: two outputs would be written to " + files[i]);
+    if (auto writable = check_writable(files[i]); !writable) return writable;
+  }
+  return {};
+}
+
+Result<Measurement> measure(const Job& job, const RenderOptions& options, Framebuffer& picture, Ladder& ladder) {
+  Renderer renderer;
+  Measurement measured;
+  measured.warmup = options.warmup;
+  for (int frame = 0; frame < options.warmup + options.frames; ++frame) {
+    FrameRequest request;
+    request.radiance = !options.radiance.empty();
+    request.depth = !options.depth.empty();
+    request.primitive = options.ids_hash;
+    // Only the last frame climbs the ladder: hashing costs time that does not belong to the others.
+    if (!options.ladder.empty() && frame + 1 == options.warmup + options.frames) request.ladder = &ladder;
+    Result<FrameStats> stats = renderer.render(job.scene, job.camera, job.settings, picture, request);
+    if (!stats) return stats.error();
+    if (stats.value().ms.bvh_build > 0) measured.bvh_builds.push_back(stats.value().ms.bvh_build);
+    if (frame >= options.warmup) measured.frames.push_back(std::move(stats.value()));
+  }
+  return measured;
+}
+
+Result<void> write_outputs(const Job& job, const RenderOptions& options, const Framebuffer& picture, const Ladder& ladder,
+                           const Measurement& measured) {
+  const int width = picture.color.width, height = picture.color.height;
+  if (!options.out.empty())
+    if (auto done = write_png(options.out, picture.color, picture_text(job)); !done) return done;
+  if (!options.radiance.empty())
+    if (auto done = write_pfm(options.radiance, FloatImage{width, height, picture.radiance}); !done) return done;
+  if (!options.depth.empty())
+    if (auto done = write_pfm_gray(options.depth, width, height, picture.depth); !done) return done;
+  if (!options.ladder.empty())
+    if (auto done = ladder.write_json(options.ladder); !done) return done;
+  if (options.stats.empty()) return {};
+  const std::string stats = stats_json(job, measured, hash_image(picture.color)).dump(2) + "\n";
+  if (options.stats != "-") return write_file_atomic(options.stats, stats);
+  std::fputs(stats.c_str(), stdout);
+  return {};
+}
+
+int render(const RenderOptions& options) {
+  if (auto outputs = check_outputs(options); !outputs) return fail(outputs.error());
+  Result<Job> job = options.frame.load();
+  if (!job) return fail(job.error());
+  for (const std::string& text : job.value().messages) message(text);
+  Framebuffer picture;
+  Ladder ladder;
+  Result<Measurement> measured = measure(job.value(), options, picture, ladder);
+  if (!measured) return fail(measured.error());
+  for (const std::string& text : measured.value().frames.back().warnings) message("warning: " + text);
+  if (auto written = write_outputs(job.value(), options, picture, ladder, measured.value()); !written) return fail(written.error());
+  if (options.hash) std::printf("%s\n", hash_text(hash_image(picture.color)).c_str());
+  if (options.ids_hash) std::printf("%s\n", hash_text(hash_ids(picture)).c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene without a window");
+  auto options = std::make_shared<RenderOptions>();
+  options->frame.add_to(*command);
+  command->add_option("--out", options->out, "The picture")->type_name("F.png");
+  command->add_option("--frames", options->frames, "Frames to render and measure")->check(CLI::Range(1, kMaxFrames))->type_name("N");
+  command->add_option("--warmup", options->warmup, "Frames before them, not measured")->check(CLI::Range(0, kMaxFrames))->type_name("N");
+  command->add_option("--stats", options->stats, "Times, counts, plan; - for standard output")->type_name("F.json");
+  command->add_flag("--hash", options->hash, "Print the hash of the picture's pixels");
+  command->add_flag("--ids-hash", options->ids_hash, "Print the hash of the primitive that each pixel sees");
+  command->add_option("--ladder", options->ladder, "Hashes of every stage, tile and pixel, for `compare`")->type_name("F.json");
+  command->add_option("--radiance", options->radiance, "Linear RGB")->type_name("F.pfm");
+  command->add_option("--depth", options->depth, "Reversed depth, near / view depth, 0 = background")->type_name("F.pfm");
+  command->callback([options, &run] { run = [options] { return render(*options); }; });
+}
+
+}  // namespace spanray::demo

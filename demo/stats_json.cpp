@@ -1,0 +1,61 @@
+#include "stats_json.h"
+
+#include <algorithm>
+
+#include "core/hash.h"
+
+namespace spanray::demo {
+
+using Json = nlohmann::ordered_json;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+double percentile_95(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[(values.size() * 95 + 99) / 100 - 1];
+}
+
+Json plan_json(const std::vector<PlanLine>& plan) {
+  Json lines = Json::array();
+  for (const PlanLine& line : plan) lines.push_back({{"stage", line.stage}, {"needed", line.needed}, {"reason", line.reason}});
+  return lines;
+}
+
+Json stats_json(const Job& job, const Measurement& measured, uint64_t picture_hash) {
+  Json out;
+  for (const auto& stage : kStages) {
+    std::vector<double> values;
+    for (const FrameStats& frame : measured.frames) values.push_back(frame.ms.*stage.time);
+    // A tree is built once, in the first frame: a median over all frames would hide what it costs.
+    if (stage.time == &StageTimes::bvh_build) values = measured.bvh_builds;
+    out["median_ms"][stage.name] = median(values);
+    out["p95_ms"][stage.name] = percentile_95(values);
+  }
+  const FrameStats& last = measured.frames.back();
+  out["counts"] = Json::object();
+  for (const auto& [name, value] : last.counts) out["counts"][name] = value;
+  out["memory_bytes"] = last.memory_bytes;
+  out["isa"] = last.isa;
+  out["threads"] = last.threads;
+  out["compiler"] = compiler_name();
+  out["numeric_contract"] = kNumericContract;
+  out["version"] = SPANRAY_VERSION;
+  out["hash"] = hash_text(picture_hash);
+  out["scene_hash"] = hash_text(job.scene.hash());
+  out["size"] = {job.settings.width, job.settings.height};
+  out["frames"] = measured.frames.size();
+  out["warmup"] = measured.warmup;
+  out["camera"] = camera_text(job.camera);
+  for (const auto& [key, value] : settings_words(job.settings)) out["settings"][key] = value;
+  out["plan"] = plan_json(plan_frame(job.scene, job.settings));
+  out["warnings"] = last.warnings;
+  return out;
+}
+
+}  // namespace spanray::demo

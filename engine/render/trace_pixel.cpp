@@ -1,0 +1,312 @@
+#include "render/trace_pixel.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "catalog/scalar.h"
+#include "core/fp_env.h"
+#include "frame/primary_rays.h"
+#include "image/encode.h"
+#include "raster/raster.h"
+#include "ray/bvh.h"
+#include "render/check_request.h"
+#include "render/plan.h"
+#include "shade/light.h"
+#include "shade/surface.h"
+
+namespace spanray {
+namespace {
+
+namespace formula {
+using namespace scalar;
+#include "catalog/vocabulary.inl"
+#include "catalog_lights.inc"
+}  // namespace formula
+
+// Kernels may write whole vectors past the one entry that counts.
+constexpr size_t kLanePadding = 64;
+
+void copy3(float* const from[3], int i, float (&to)[3]) {
+  for (int c = 0; c < 3; ++c) to[c] = from[c][i];
+}
+
+// Radiance of a batch of one.
+struct Radiance {
+  AlignedBuffer<float> channel[3];
+  float* pointer[3];
+  Radiance() {
+    for (int c = 0; c < 3; ++c) {
+      channel[c].assign(kLanePadding, 0.0f);
+      pointer[c] = channel[c].data();
+    }
+  }
+  void get(float (&to)[3]) const { for (int c = 0; c < 3; ++c) to[c] = channel[c][0]; }
+};
+
+// Everything that the frame of one pixel needs: the beginning of Renderer::render, for one picture.
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y);
+  PixelTrace run();
+
+ private:
+  uint32_t raster_hit(FragmentList& fragments, float& depth);
+  uint32_t ray_hit();
+  void make_primary_ray(RayBatch& rays) const;
+  void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive) const;
+  SurfaceTrace shade(const HitBatch& hits, SurfaceBatch& surfaces, bool primary);
+  LightTrace light(const HitBatch& hits, const SurfaceBatch& surfaces, int index, LitVertexCache* cache, Radiance& sum);
+  void add_layers(LevelTrace& level, RayBatch& rays, const FragmentList& primary_layers, bool primary);
+  bool bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch& next, LevelTrace& level) const;
+
+  int x_, y_;
+  Parallel parallel_;
+  Plan plan_;
+  Frame frame_;
+  Bvh opaque_, translucent_;
+  std::unique_ptr<LitVertexCache> lit_vertices_;
+};
+
+Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y)
+    : x_(x), y_(y), parallel_(settings.threads), plan_(make_plan(scene.data(), find_scene_use(scene.data()), settings)) {
+  frame_.scene = &scene.data();
+  frame_.settings = settings;
+  frame_.plan = plan_.flags;
+  frame_.primary = make_primary_rays(camera, settings.width, settings.height);
+  frame_.grid = TileGrid(settings.width, settings.height);
+  frame_.isa = resolve_isa(settings.isa);
+  frame_.parallel = &parallel_;
+  frame_.material_flags = plan_.material_flags.data();
+  frame_.accept_row = accept_row;
+  frame_.accept_ray = accept_ray;
+  // Both engines are asked, whatever the plan says; where the plan has no use for a tree, its answer is only shown.
+  opaque_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, 0, parallel_);
+  translucent_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, kMaterialTranslucent, parallel_);
+  if (frame_.plan.lit_vertices)
+    lit_vertices_ = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
+}
+
+uint32_t Tracer::raster_hit(FragmentList& fragments, float& depth) {
+  ScreenVertices vertices;
+  TileBins bins;
+  FrameCounts counts;
+  transform_vertices(frame_, vertices);
+  clip_triangles(frame_, vertices, bins, counts);
+  bin_triangles(frame_, bins);
+  const auto visible = std::make_unique<TileHits>();
+  const int tile = y_ / kTileSize * frame_.grid.columns + x_ / kTileSize;
+  parallel_.for_each(1, [&](size_t, int) {
+    rasterize_tile(frame_, bins, tile, *visible);
+    FragmentList all;
+    if (frame_.plan.translucents) rasterize_translucent(frame_, bins, tile, *visible, all);
+    for (size_t i = 0; i < all.pixel.size(); ++i) {
+      if (all.pixel[i] != pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_))) continue;
+      fragments.pixel.push_back(all.pixel[i]), fragments.ray.push_back(0), fragments.primitive.push_back(all.primitive[i]);
+    }
+  });
+  const int i = y_ % kTileSize * kTileSize + x_ % kTileSize;
+  depth = visible->depth[i];
+  return visible->primitive[i];
+}
+
+void Tracer::make_primary_ray(RayBatch& rays) const {
+  const PrimaryRays& p = frame_.primary;
+  const glm::dvec3 d = p.corner + p.step_x * (x_ + 0.5) + p.step_y * (y_ + 0.5);
+  const glm::dvec3 o = p.eye + d * p.near_plane;
+  rays.resize(1, false);
+  for (int k = 0; k < 3; ++k) rays.origin[k][0] = static_cast<float>(o[k]), rays.direction[k][0] = static_cast<float>(d[k]);
+  rays.t_max[0] = kInfinity;
+  rays.pixel[0] = pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+}
+
+uint32_t Tracer::ray_hit() {
+  RayBatch rays;
+  make_primary_ray(rays);
+  AlignedBuffer<uint32_t> primitive;
+  primitive.assign(kLanePadding, kNoPrimitive);
+  trace_closest(frame_, opaque_, rays, primitive.data());
+  return primitive[0];
+}
+
+void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive) const {
+  hits.resize(primitive == kNoPrimitive ? 0 : 1, true);
+  hits.rays = rays;
+  if (hits.count == 0) return;
+  hits.pixel[0] = pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+  hits.ray[0] = 0;
+  hits.primitive[0] = primitive;
+}
+
+// The light alone, its shadow ray, its bit, and the sum so far with it.
+LightTrace Tracer::light(const HitBatch& hits, const SurfaceBatch& s, int index, LitVertexCache* cache, Radiance& sum) {
+  LightTrace trace;
+  trace.light = index;
+  const Light& l = frame_.scene->lights[static_cast<size_t>(index)];
+  const auto vec = [](const float (&v)[3]) { return formula::Vec3<float>{v[0], v[1], v[2]}; };
+  const formula::LightLanes<float> lanes = {vec(l.position), vec(l.direction), vec(l.attenuation)};
+  const formula::Vec3<float> at = {s.position[0][0], s.position[1][0], s.position[2][0]};
+  const auto incidence = l.kind == static_cast<int32_t>(LightKind::kPoint) ? formula::lights::point::incidence(lanes, at)
+                                                                          : formula::lights::directional::incidence(lanes, at);
+  trace.to_light[0] = incidence.direction.x, trace.to_light[1] = incidence.direction.y, trace.to_light[2] = incidence.direction.z;
+  const formula::Vec3<float> n = {s.geometric_normal[0][0], s.geometric_normal[1][0], s.geometric_normal[2][0]};
+  trace.in_front = formula::dot(n, incidence.direction) > 0;
+  for (int c = 0; c < 3; ++c) trace.irradiance[c] = l.intensity[c] * incidence.attenuation;
+
+  AlignedBuffer<uint32_t> lit;
+  lit.assign(kLanePadding, 1);
+  if (frame_.plan.shadow_rays) {
+    RayBatch rays;
+    AlignedBuffer<uint32_t> surface_of_ray, answer;
+    make_shadow_rays(frame_, s, index, rays, surface_of_ray);
+    answer.assign(kLanePadding, 0);
+    trace.has_ray = rays.count > 0;
+    lit[0] = 0;
+    if (trace.has_ray) {
+      trace_any(frame_, opaque_, rays, answer.data());
+      lit[0] = ~answer[0] & 1u;
+      for (int k = 0; k < 3; ++k) trace.origin[k] = rays.origin[k][0], trace.direction[k] = rays.direction[k][0];
+      trace.t_max = rays.t_max[0];
+      answer.assign(kLanePadding, kNoPrimitive);
+      trace_closest(frame_, opaque_, rays, answer.data());
+      trace.blocker = answer[0];
+    }
+  }
+  trace.lit = lit[0] != 0;
+  Radiance alone;
+  shade_light(frame_, s, hits, index, nullptr, cache, alone.pointer);
+  alone.get(trace.alone);
+  shade_light(frame_, s, hits, index, frame_.plan.shadow_rays ? lit.data() : nullptr, cache, sum.pointer);
+  sum.get(trace.sum);
+  return trace;
+}
+
+SurfaceTrace Tracer::shade(const HitBatch& hits, SurfaceBatch& s, bool primary) {
+  SurfaceTrace trace;
+  if (hits.count == 0) return trace;
+  resolve_surfaces(frame_, hits, s);
+  trace.valid = s.valid[0] != 0;
+  trace.primitive = s.primitive[0], trace.material = s.material[0];
+  trace.t = s.t[0], trace.position_error = s.position_error[0], trace.shininess = s.shininess[0], trace.opacity = s.opacity[0];
+  copy3(s.weight, 0, trace.weight), copy3(s.position, 0, trace.position), copy3(s.geometric_normal, 0, trace.geometric_normal);
+  copy3(s.normal, 0, trace.normal), copy3(s.view, 0, trace.view), copy3(s.dpdx, 0, trace.dpdx), copy3(s.dpdy, 0, trace.dpdy);
+  copy3(s.ambient, 0, trace.ambient), copy3(s.diffuse, 0, trace.diffuse), copy3(s.specular, 0, trace.specular);
+  copy3(s.emission, 0, trace.emission), copy3(s.mirror, 0, trace.mirror);
+  const Triangle& triangle = frame_.scene->triangles[trace.primitive];
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 2; ++k) trace.uv[k] += trace.weight[j] * frame_.scene->vertices[triangle.vertex[j]].uv[k];
+  Radiance sum;
+  shade_ambient(frame_, s, sum.pointer);
+  sum.get(trace.ambient_radiance);
+  for (int i = 0; i < static_cast<int>(frame_.scene->lights.size()); ++i)
+    trace.lights.push_back(light(hits, s, i, primary ? lit_vertices_.get() : nullptr, sum));
+  sum.get(trace.radiance);
+  return trace;
+}
+
+void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const FragmentList& primary_layers, bool primary) {
+  const float opaque_t = level.surface.valid ? level.surface.t : kInfinity;
+  FragmentList traced;
+  const bool rasterized = primary && frame_.plan.raster;
+  if (!rasterized) {
+    const float start = primary ? static_cast<float>(frame_.primary.near_plane) : 0.0f;
+    rays.t_max[0] = (opaque_t - start) * 1.00001f;  // as in render/tile.cpp
+    trace_all(frame_, translucent_, rays, traced);
+  }
+  const FragmentList& list = rasterized ? primary_layers : traced;
+  for (size_t i = 0; i < list.primitive.size(); ++i) {
+    HitBatch hits;
+    SurfaceBatch surfaces;
+    make_hits(hits, primary ? nullptr : &rays, list.primitive[i]);
+    level.layers.push_back(shade(hits, surfaces, primary));
+  }
+  // Shown in the order of blending; blended by the renderer's own function.
+  std::sort(level.layers.begin(), level.layers.end(), [](const SurfaceTrace& a, const SurfaceTrace& b) {
+    return a.t != b.t ? a.t > b.t : a.primitive > b.primitive;
+  });
+  const int n = static_cast<int>(level.layers.size());
+  SurfaceBatch batch;
+  batch.resize(n);
+  AlignedBuffer<int32_t> slot;
+  slot.assign(static_cast<size_t>(n) + kLanePadding, 0);
+  AlignedBuffer<float> layer_radiance[3];
+  for (auto& channel : layer_radiance) channel.assign(static_cast<size_t>(n) + kLanePadding, 0.0f);
+  for (int i = 0; i < n; ++i) {
+    const SurfaceTrace& layer = level.layers[static_cast<size_t>(i)];
+    batch.t[i] = layer.t, batch.opacity[i] = layer.opacity, batch.primitive[i] = layer.primitive, batch.valid[i] = layer.valid;
+    for (int c = 0; c < 3; ++c) layer_radiance[c][static_cast<size_t>(i)] = layer.radiance[c];
+  }
+  Radiance out;
+  for (int c = 0; c < 3; ++c) out.channel[c][0] = level.radiance[c];
+  const float* from[3] = {layer_radiance[0].data(), layer_radiance[1].data(), layer_radiance[2].data()};
+  if (n > 0) composite(batch, slot.data(), from, &opaque_t, 1, out.pointer, &level.transmittance);
+  out.get(level.radiance);
+}
+
+// The mirror ray of a surface, if it has one.
+bool Tracer::bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch& next, LevelTrace& level) const {
+  if (hits.count == 0) return false;
+  AlignedBuffer<uint32_t> surface_of_ray;
+  make_bounce_rays(frame_, surfaces, hits, next, surface_of_ray);
+  if (next.count == 0) return false;
+  for (int k = 0; k < 3; ++k) level.origin[k] = next.origin[k][0], level.direction[k] = next.direction[k][0];
+  return true;
+}
+
+PixelTrace Tracer::run() {
+  PixelTrace trace;
+  const PrimaryRays& p = frame_.primary;
+  trace.eye = p.eye;
+  trace.direction = p.corner + p.step_x * (x_ + 0.5) + p.step_y * (y_ + 0.5);
+  trace.by_ray = frame_.settings.visibility == Visibility::kRay;
+  FragmentList layers;
+  trace.raster_primitive = raster_hit(layers, trace.raster_depth);
+  trace.ray_primitive = ray_hit();
+
+  std::vector<std::unique_ptr<RayBatch>> rays;
+  rays.push_back(std::make_unique<RayBatch>());
+  make_primary_ray(*rays[0]);
+  uint32_t primitive = trace.by_ray ? trace.ray_primitive : trace.raster_primitive;
+  for (size_t k = 0;; ++k) {
+    const bool primary = k == 0;
+    if (primary) trace.levels.emplace_back();
+    HitBatch hits;
+    SurfaceBatch surfaces;
+    make_hits(hits, primary ? nullptr : rays[k].get(), primitive);
+    LevelTrace& level = trace.levels[k];
+    level.surface = shade(hits, surfaces, primary);
+    for (int c = 0; c < 3; ++c)
+      level.radiance[c] = hits.count > 0 ? level.surface.radiance[c] : frame_.scene->background[c];
+    if (frame_.plan.translucents) add_layers(level, *rays[k], layers, primary);
+    std::copy_n(level.radiance, 3, level.layers_over);
+    if (!frame_.plan.bounces || k == static_cast<size_t>(frame_.settings.max_bounces)) break;
+    rays.push_back(std::make_unique<RayBatch>());
+    LevelTrace next;
+    if (!bounce(hits, surfaces, *rays[k + 1], next)) break;
+    for (int c = 0; c < 3; ++c) next.weight[c] = surfaces.mirror[c][0] * (frame_.plan.translucents ? level.transmittance : 1.0f);
+    AlignedBuffer<uint32_t> found;
+    found.assign(kLanePadding, kNoPrimitive);
+    trace_closest(frame_, opaque_, *rays[k + 1], found.data());
+    primitive = found[0];
+    trace.levels.push_back(next);
+  }
+  for (size_t k = trace.levels.size() - 1; k > 0; --k)
+    for (int c = 0; c < 3; ++c) trace.levels[k - 1].radiance[c] += trace.levels[k].weight[c] * trace.levels[k].radiance[c];
+  Radiance out;
+  for (int c = 0; c < 3; ++c) trace.radiance[c] = out.channel[c][0] = trace.levels[0].radiance[c];
+  const float* radiance[3] = {out.pointer[0], out.pointer[1], out.pointer[2]};
+  encode_row(frame_.isa, radiance, 1, trace.rgba);
+  return trace;
+}
+
+}  // namespace
+
+Result<PixelTrace> trace_pixel(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y) {
+  if (Result<void> checked = check_request(scene, camera, settings); !checked) return checked.error();
+  if (x < 0 || y < 0 || x >= settings.width || y >= settings.height)
+    return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the picture of " +
+                 std::to_string(settings.width) + "x" + std::to_string(settings.height)};
+  const FpEnvGuard guard;
+  return Tracer(scene, camera, settings, x, y).run();
+}
+
+}  // namespace spanray

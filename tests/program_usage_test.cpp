@@ -1,0 +1,144 @@
+// How the program ends and speaks: exit codes, wrong usage, bad input.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/program.h"
+#include "support/small_scene.h"
+
+namespace spanray {
+namespace {
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override { scene_ = write_small_scene(folder_); }
+  Ran run(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) {
+    return run_program(std::move(arguments), folder_.path(), environment);
+  }
+  // Wrong usage: exit 2, every word in the message, nothing on standard output.
+  void expect_usage(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    expect_failure(2, arguments, words);
+  }
+  void expect_failure(int code, const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    const int before = folder_.entries();
+    const Ran ran = run(arguments);
+    std::string line;
+    for (const std::string& argument : arguments) line += " " + argument;
+    EXPECT_EQ(code, ran.code) << line << "\n" << ran.error;
+    EXPECT_EQ("", ran.out) << line;
+    for (const std::string& word : words) EXPECT_NE(std::string::npos, ran.error.find(word)) << line << "\n" << ran.error;
+    EXPECT_EQ(before, folder_.entries()) << line << ": a file was left behind";
+  }
+  TempFolder folder_;
+  std::string scene_;
+};
+
+using ProgramUsage = Program;
+using ProgramBadInput = Program;
+
+TEST_F(ProgramUsage, VersionAndHelpGoToStandardOutput) {
+  const Ran version = run({"--version"});
+  EXPECT_EQ(0, version.code);
+  for (const char* word : {"spanray ", "numeric_contract ", "compiler ", "instruction_sets scalar"})
+    EXPECT_NE(std::string::npos, version.out.find(word)) << version.out;
+  EXPECT_EQ("", version.error);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}, {"walk", "--help"}}) {
+    const Ran help = run(arguments);
+    EXPECT_EQ(0, help.code);
+    EXPECT_NE("", help.out);
+    EXPECT_EQ("", help.error);
+  }
+}
+
+TEST_F(ProgramUsage, WrongUsageNamesItselfAndExitsWith2) {
+  expect_usage({}, {"command is missing", "walk", "render"});
+  expect_usage({"rendr", scene_}, {"rendr", "render"});
+  expect_usage({"render", scene_, "--out", "a.png", "--shadws", "ray"}, {"--shadws", "--shadows"});
+  expect_usage({"render", scene_, "--out", "a.png", "--shading", "phnog"}, {"--shading", "phnog", "flat|gouraud|phong"});
+  expect_usage({"render", scene_, "more", "--out", "a.png"}, {"more"});
+  expect_usage({"render"}, {"SCENE"});
+  expect_usage({"render", scene_}, {"nothing to do"});
+  expect_usage({"render", scene_, "--out"}, {"--out"});
+  expect_usage({"render", scene_, "--out", "a.jpg"}, {".png", "a.jpg"});
+  expect_usage({"render", scene_, "--hash", "--stats", "-"}, {"standard output"});
+  expect_usage({"render", scene_, "--depth", "a.pfm", "--radiance", "./a.pfm"}, {"a.pfm"});
+  expect_usage({"render", scene_, "--stats", scene_}, {"the scene itself"});
+}
+
+TEST_F(ProgramUsage, NumbersAreCheckedBeforeLoading) {
+  const std::string missing = "missing.obj";  // would be exit 1
+  for (const char* size : {"0x10", "10x0", "-1x5", "10", "10x", "x10", "10x10x10", "1e3x4", "16385x1", "1x16385", "99999999999x1", "10 x10"})
+    expect_usage({"render", missing, "--hash", "--size", size}, {"--size", size});
+  for (const char* camera : {"1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,", "1,2,3,4,5,6,0", "1,2,3,4,5,6,180", "1,2,3,1,2,3,40",
+                             "nan,2,3,4,5,6,40", "1,2,inf,4,5,6,40", "1e999,2,3,4,5,6,40"})
+    expect_usage({"render", missing, "--hash", "--camera", camera}, {"--camera"});
+  expect_usage({"render", missing, "--hash", "--threads", "-1"}, {"--threads"});
+  expect_usage({"render", missing, "--hash", "--threads", "many"}, {"--threads"});
+  expect_usage({"render", missing, "--hash", "--max-bounces", "65"}, {"--max-bounces"});
+  expect_usage({"render", missing, "--hash", "--frames", "0"}, {"--frames"});
+  expect_usage({"render", missing, "--hash", "--warmup", "-1"}, {"--warmup"});
+  expect_usage({"render", missing, "--hash", "--isa", "sse9"}, {"--isa", "sse4"});
+  expect_usage({"why", missing, "3"}, {"X,Y"});
+  expect_usage({"why", missing, "3,4,5"}, {"X,Y"});
+}
+
+TEST_F(ProgramUsage, WhatThisVersionLacksSaysSo) {
+  expect_usage({"render", scene_, "--out", "a.png", "--shadows", "map"}, {"--shadows", "this version has no `map`"});
+  expect_usage({"render", scene_, "--out", "a.png", "--reflections", "env"}, {"--reflections", "this version has no `env`"});
+  expect_usage({"report", scene_, "--out", "dir"}, {"this version has no `report`"});
+  expect_usage({"tune", scene_, "--max-ms", "16"}, {"this version has no `tune`"});
+}
+
+TEST_F(ProgramUsage, ACameraThatTheSceneLacksIsNamedWithThoseItHas) {
+  expect_usage({"render", scene_, "--hash", "--camera", "balcony"}, {"balcony", "it has"});
+}
+
+TEST_F(ProgramBadInput, MissingAndWrongFilesExitWith1) {
+  for (const char* command : {"render", "info"}) {
+    std::vector<std::string> tail = std::string(command) == "render" ? std::vector<std::string>{"--hash"} : std::vector<std::string>{};
+    const auto with = [&](const std::string& scene) {
+      std::vector<std::string> arguments = {command, scene};
+      arguments.insert(arguments.end(), tail.begin(), tail.end());
+      return arguments;
+    };
+    expect_failure(1, with("missing.obj"), {"missing.obj"});
+    expect_failure(1, with("missing.toml"), {"missing.toml"});
+    expect_failure(1, with(folder_.path()), {folder_.path()});
+    expect_failure(1, with("room.mtl"), {"room.mtl"});
+  }
+  folder_.write("bad.toml", "mesh = [[[");
+  expect_failure(1, {"info", "bad.toml"}, {"bad.toml:1"});
+}
+
+TEST_F(ProgramBadInput, OutputsThatCannotBeWrittenFailBeforeLoading) {
+  // The scene is missing too: the message is about the output, so that was looked at first.
+  expect_failure(1, {"render", "missing.obj", "--out", "no/such/a.png"}, {"no/such/a.png", "does not exist"});
+  expect_failure(1, {"render", "missing.obj", "--stats", "no/a.json"}, {"no/a.json"});
+  std::filesystem::create_directory(folder_.file("folder.png"));
+  expect_failure(1, {"render", "missing.obj", "--out", "folder.png"}, {"folder.png", "folder"});
+}
+
+TEST_F(ProgramBadInput, NoFileIsHalfWritten) {
+  // An older file survives a frame that cannot be rendered, and no temporary is left.
+  folder_.write("a.png", "old");
+  expect_failure(1, {"render", "missing.obj", "--out", "a.png", "--stats", "a.json", "--ladder", "l.json"}, {"missing.obj"});
+  EXPECT_EQ("old", read_text(folder_.file("a.png")));
+}
+
+TEST_F(ProgramBadInput, WalkWithoutADisplayNamesRender) {
+  const Ran ran = run({"walk", scene_, "--frames", "1"}, {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "ASAN_OPTIONS=detect_leaks=0"});
+  EXPECT_EQ(1, ran.code) << ran.error;
+  EXPECT_NE(std::string::npos, ran.error.find("spanray render")) << ran.error;
+}
+
+TEST_F(ProgramBadInput, AFullDiskIsAnError) {
+  std::ofstream full("/dev/full");
+  if (!full) GTEST_SKIP() << "no /dev/full";
+  Process process({"/bin/sh", "-c", std::string("exec '") + SPANRAY_PROGRAM + "' info room.obj > /dev/full"}, folder_.path());
+  ASSERT_TRUE(process.wait(60));
+  EXPECT_EQ(1, process.code());
+  EXPECT_NE(std::string::npos, process.error().find("standard output"));
+}
+
+}  // namespace
+}  // namespace spanray
