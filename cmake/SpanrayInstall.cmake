@@ -1,0 +1,24 @@
+# cmake --install: library, public headers, program, and what find_package(spanray CONFIG) and pkg-config need.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS spanray EXPORT spanrayTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/include/spanray DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET spanray_program)
+  install(TARGETS spanray_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(spanray_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spanray)
+install(EXPORT spanrayTargets NAMESPACE spanray:: DESTINATION ${spanray_package_dir})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/spanrayConfig.cmake.in ${PROJECT_BINARY_DIR}/spanrayConfig.cmake
+  INSTALL_DESTINATION ${spanray_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/spanrayConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/spanrayConfig.cmake ${PROJECT_BINARY_DIR}/spanrayConfigVersion.cmake
+  DESTINATION ${spanray_package_dir})
+
+set(spanray_pc_requires "libpng libjpeg libhwy")
+if(NOT SPANRAY_STD_THREADS)
+  string(APPEND spanray_pc_requires " tbb")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/spanray.pc.in ${PROJECT_BINARY_DIR}/spanray.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/spanray.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
