@@ -10,9 +10,13 @@ function(spanray_flags target)
     target_compile_options(${target} PRIVATE -Wno-pass-failed)
   endif()
   # One 1-lane fallback on every compiler (Highway would choose by compiler), SSE4, AVX2 and AVX-512 in every build.
-  target_compile_definitions(${target} PRIVATE
-    HWY_COMPILE_ALL_ATTAINABLE HWY_BROKEN_EMU128=1 HWY_BASELINE_TARGETS=HWY_SCALAR
-    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+  target_compile_definitions(${target} PRIVATE HWY_COMPILE_ALL_ATTAINABLE HWY_BROKEN_EMU128=1 HWY_BASELINE_TARGETS=HWY_SCALAR)
+  if(SPANRAY_SANITIZE)
+    target_compile_definitions(${target} PRIVATE
+      SPANRAY_FEW_ISAS "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  else()
+    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+  endif()
   if(SPANRAY_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${SPANRAY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PRIVATE -fsanitize=${SPANRAY_SANITIZE})

@@ -19,4 +19,9 @@
 #pragma once
 #include "simd/isa.h"
 
+// Sanitized builds have fewer instruction sets, in all targets alike: each one takes minutes to compile.
+#if defined(SPANRAY_FEW_ISAS)
+#define SPANRAY_KERNEL_TABLE(f) {&N_SCALAR::f, nullptr, &N_AVX2::f, nullptr}
+#else
 #define SPANRAY_KERNEL_TABLE(f) {&N_SCALAR::f, &N_SSE4::f, &N_AVX2::f, &N_AVX3::f}
+#endif

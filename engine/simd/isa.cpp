@@ -6,7 +6,11 @@ bool isa_supported(Isa isa) {
   switch (isa) {
     case Isa::kAuto:
     case Isa::kScalar: return true;
-#if defined(__x86_64__)
+#if defined(SPANRAY_FEW_ISAS)
+    case Isa::kSse4:
+    case Isa::kAvx512: return false;  // no kernels in this build (simd/dispatch.h)
+    case Isa::kAvx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#elif defined(__x86_64__)
     case Isa::kSse4: return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
     case Isa::kAvx2:
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
