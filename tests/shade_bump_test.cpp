@@ -127,7 +127,7 @@ TEST(ShadeBump, S7_NormalsBelowTheHorizonAreClampedToIt) {
       ASSERT_NEAR(static_cast<double>(length_real(real3(s.normal, i))), 1, 1e-6);
       clamped += cosine < 0x1.1p-10L;
     }
-    EXPECT_GT(clamped, bm == 1 ? 0 : 50) << bm;
+    EXPECT_GT(clamped, bm == 1 ? 0 : 30) << bm << ": too few cases";
   }
 }
 

@@ -131,18 +131,19 @@ void resolve_emission_and_opacity(const Group& g, const SurfaceBatch& out) {
   put(g, out.opacity, opacity);
 }
 
-// The interpolated vertex normal, on the side that is seen; the geometric one where opposed normals leave nothing.
-HWY_INLINE V3f interpolated_normal(const SceneData& scene, const TriangleLanes& t, F32 b1, F32 b2, Mask back,
-                                   const V3f& geometric) {
+// The interpolated vertex normal, on the side that is seen; the geometric one where opposed normals leave nothing. The three corners
+// turn as one, by the sign of their sum against the geometric normal, whatever the winding says: files disagree about it (as Gouraud).
+HWY_INLINE V3f interpolated_normal(const SceneData& scene, const TriangleLanes& t, F32 b1, F32 b2, const V3f& geometric) {
   const float* vertices = reinterpret_cast<const float*>(scene.vertices.data());
-  F32 n[3];
+  F32 n[3], sum[3];
   for (int k = 0; k < 3; ++k) {
-    const F32 n0 = t.vertex[0].real(vertices, 3 + k);
-    const F32 d1 = t.vertex[1].real(vertices, 3 + k) - n0, d2 = t.vertex[2].real(vertices, 3 + k) - n0;
-    n[k] = mul_add(b2, d2, mul_add(b1, d1, n0));
+    const F32 n0 = t.vertex[0].real(vertices, 3 + k), n1 = t.vertex[1].real(vertices, 3 + k), n2 = t.vertex[2].real(vertices, 3 + k);
+    n[k] = mul_add(b2, n2 - n0, mul_add(b1, n1 - n0, n0));
+    sum[k] = n0 + n1 + n2;
   }
-  const V3f front{n[0], n[1], n[2]};
-  return unit_or(select(back, -front, front), 1e-6f, geometric);
+  const V3f interpolated{n[0], n[1], n[2]};
+  const Mask away = dot(V3f{sum[0], sum[1], sum[2]}, geometric) < F32::zero();
+  return unit_or(select(away, -interpolated, interpolated), 1e-6f, geometric);
 }
 
 V3f bumped_normal(const Group& g, V3f normal) {
@@ -174,7 +175,7 @@ void resolve_normals(const Group& g, const RayLanes& ray, const TriangleLanes& t
   const V3f geometric = select(has_area, select(turned, -unit, unit), view);
   V3f normal = geometric;
   if (g.frame.settings.shading != Shading::kFlat)
-    normal = interpolated_normal(*g.frame.scene, t, to_f32(s.b1), to_f32(s.b2), back, geometric);
+    normal = interpolated_normal(*g.frame.scene, t, to_f32(s.b1), to_f32(s.b2), geometric);
   if (g.uv != nullptr && g.frame.plan.bump) normal = bumped_normal(g, normal);
   put(g, out.view, view);
   put(g, out.geometric_normal, geometric);
