@@ -9,7 +9,7 @@
 #include "frame/ladder.h"
 #include "image/metrics.h"
 #include "picture.h"
-#include "png_text.h"
+#include "text_chunks.h"
 
 namespace spanray::demo {
 namespace {

@@ -1,4 +1,4 @@
-#include "png_text.h"
+#include "text_chunks.h"
 
 #include <cstdint>
 #include <cstring>
