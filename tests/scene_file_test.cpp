@@ -114,8 +114,13 @@ opacity = 1
 }
 
 TEST_F(SceneFileTest, EveryMistakeIsNamedWithItsLine) {
-  const std::string obj = "obj = \"a.obj\"\n", camera = "[[camera]]\neye = [0,0,5]\ntarget = [0,0,0]\n", light = "[[light]]\nkind = \"point\"\nposition = [0,0,0]\nintensity = [1,1,1]\n";
-  const struct { std::string text; int line; const char* cause; } cases[] = {
+  const std::string obj = "obj = \"a.obj\"\n", camera = "[[camera]]\neye = [0,0,5]\ntarget = [0,0,0]\n",
+                    light = "[[light]]\nkind = \"point\"\nposition = [0,0,0]\nintensity = [1,1,1]\n";
+  const struct {
+    std::string text;
+    int line;
+    const char* cause;
+  } cases[] = {
       {"", 0, "empty"},
       {"# nothing\n", 1, "'obj' is missing"},
       {"obj = 5\n", 1, "must be a string"},
@@ -150,9 +155,11 @@ TEST_F(SceneFileTest, EveryMistakeIsNamedWithItsLine) {
       {obj + light + "attenuation = [0,0,-1]\n", 6, "is -1"},
       {obj + "[[light]]\nkind = \"directional\"\nintensity = [1,1,1]\ndirection = [0,0,0]\n", 5, "no length"},
       {obj + "[[light]]\nkind = \"directional\"\nintensity = [1,1,1]\n", 2, "'direction' of light is missing"},
-      {obj + "[[light]]\nkind = \"directional\"\ndirection = [0,-1,0]\nposition = [0,0,0]\nintensity = [1,1,1]\n", 5, "for point lights"},
+      {obj + "[[light]]\nkind = \"directional\"\ndirection = [0,-1,0]\nposition = [0,0,0]\nintensity = [1,1,1]\n", 5,
+       "for point lights"},
       {obj + "[[path]]\neye = [0,0,5]\ntarget = [0,0,0]\n", 2, "'time' of path is missing"},
-      {obj + "[[path]]\ntime = 1\neye = [0,0,5]\ntarget = [0,0,0]\n[[path]]\ntime = 1.0\neye = [0,0,5]\ntarget = [0,0,0]\n", 7, "greater"},
+      {obj + "[[path]]\ntime = 1\neye = [0,0,5]\ntarget = [0,0,0]\n[[path]]\ntime = 1.0\neye = [0,0,5]\ntarget = [0,0,0]\n", 7,
+       "greater"},
       {obj + "[technique]\nshading = \"pohng\"\n", 3, "did you mean 'phong'"},
       {obj + "[technique]\nshadows = true\n", 3, "must be a string, not a boolean"},
       {obj + "[technique]\nmax_bounces = 65\n", 3, "0 to 64"},
@@ -199,7 +206,8 @@ TEST_F(SceneFileTest, LightsAreLimited) {
   std::string text = "obj = \"a.obj\"\n";
   for (int i = 0; i < kMaxLights; ++i) text += "[[light]]\nkind = \"point\"\nposition = [0,0,0]\nintensity = [1,1,1]\n";
   EXPECT_EQ(load(text).scene().lights.size(), static_cast<size_t>(kMaxLights));
-  EXPECT_NE(error(text + "[[light]]\nkind = \"point\"\nposition = [0,0,0]\nintensity = [1,1,1]\n").message.find("at most 64"), std::string::npos);
+  EXPECT_NE(error(text + "[[light]]\nkind = \"point\"\nposition = [0,0,0]\nintensity = [1,1,1]\n").message.find("at most 64"),
+            std::string::npos);
 }
 
 TEST_F(SceneFileTest, WithoutLightOrCameraDefaultsAreChosenAndSaid) {
@@ -240,7 +248,8 @@ TEST(DefaultView, BoundingSphereIsInView) {
       glm::dvec3 eye, target, center, half;
       for (int k = 0; k < 3; ++k) {
         eye[k] = c.eye[k], target[k] = c.target[k];
-        center[k] = (static_cast<double>(s.bounds_min[k]) + s.bounds_max[k]) / 2, half[k] = (static_cast<double>(s.bounds_max[k]) - s.bounds_min[k]) / 2;
+        center[k] = (static_cast<double>(s.bounds_min[k]) + s.bounds_max[k]) / 2,
+        half[k] = (static_cast<double>(s.bounds_max[k]) - s.bounds_min[k]) / 2;
       }
       EXPECT_EQ(target, center);
       EXPECT_GT(eye.z, center.z);

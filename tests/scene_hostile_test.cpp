@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 
@@ -39,7 +40,8 @@ void check_invariants(const SceneData& s) {
     for (const float* c : {m.ambient, m.diffuse, m.specular, m.emission, m.mirror})
       for (int k = 0; k < 3; ++k) ASSERT_TRUE(c[k] >= 0 && std::isfinite(c[k]));
     ASSERT_TRUE(m.opacity >= 0 && m.opacity <= 1 && m.shininess >= 0 && m.shininess <= 1e4f);
-    for (const int32_t use : {m.map_ambient, m.map_diffuse, m.map_specular, m.map_shininess, m.map_emission, m.map_opacity, m.map_bump, m.map_normal}) {
+    for (const int32_t use : {m.map_ambient, m.map_diffuse, m.map_specular, m.map_shininess, m.map_emission, m.map_opacity,
+                              m.map_bump, m.map_normal}) {
       ASSERT_LT(use, static_cast<int32_t>(s.texture_uses.size()));
       ASSERT_GE(use, -1);
     }
@@ -56,7 +58,12 @@ std::string repeat(const std::string& text, int count) {
 }
 
 constexpr int kLoads = -1;  // as a line: the scene loads
-struct HostileObj { const char* name; std::string text; int line; const char* says; };
+struct HostileObj {
+  const char* name;
+  std::string text;
+  int line;
+  const char* says;
+};
 
 // `says` is part of the error, or of some message of a scene that loads.
 std::vector<HostileObj> hostile_objs() {
@@ -95,12 +102,17 @@ std::vector<HostileObj> hostile_objs() {
       {"two signs", "v --1 0 0\n", 1, "not a number"},
       {"exponent alone", "v 1e 0 0\n", 1, "not a number"},
       {"NUL byte", v3 + std::string("f 1 2 3\0 4\n", 11), 4, "binary"},
-      {"binary garbage", std::string("\x7f" "ELF\2\1\1\0\0\0\0\0\0\0\0\0", 16), 1, "binary"},
+      {"binary garbage",
+       std::string("\x7f"
+                   "ELF\2\1\1\0\0\0\0\0\0\0\0\0",
+                   16),
+       1, "binary"},
       {"a PNG named obj", "\x89PNG\r\n\x1a\nxyz\n", 1, "not a Wavefront OBJ"},
       {"a STL named obj", "solid cube\nfacet normal 0 0 1\n", 1, "not a Wavefront OBJ"},
       {"an XML file", "<?xml version=\"1.0\"?>\n<scene/>\n", 1, "not a Wavefront OBJ"},
       {"one word of a megabyte", repeat("x", 1 << 20), 1, "not a Wavefront OBJ"},
-      {"number of a megabyte", "v " + repeat("1", 1 << 20) + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", kLoads, "1 triangles dropped"},
+      {"number of a megabyte", "v " + repeat("1", 1 << 20) + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", kLoads,
+       "1 triangles dropped"},
       {"zeros of a megabyte", "v 0." + repeat("0", 1 << 20) + "1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", kLoads, ""},
       {"corner of a megabyte", v3 + "f 1 2 " + repeat("1", 1 << 20) + "\n", 4, "too large"},
       {"spaces of a megabyte", v3 + "f 1 2 " + repeat(" ", 1 << 20) + "3\n", kLoads, ""},
@@ -118,7 +130,8 @@ std::vector<HostileObj> hostile_objs() {
       {"denormals", "v 1e-45 0 0\nv 0 1e-45 0\nv 0 0 1e-45\nf 1 2 3\n", kLoads, ""},
       {"no vertex", "# empty\n", kLoads, "no triangles"},
       {"only spaces", " \n\t\n", kLoads, "no triangles"},
-      {"unknown statements", v3 + "curv2 1 2\nxyzzy\nf 1 2 3\n", kLoads, "a.obj:4: warning: 2 lines with unknown statements ignored, first 'curv2'"},
+      {"unknown statements", v3 + "curv2 1 2\nxyzzy\nf 1 2 3\n", kLoads,
+       "a.obj:4: warning: 2 lines with unknown statements ignored, first 'curv2'"},
       {"material names of a megabyte", v3 + "usemtl " + repeat("m", 1 << 20) + "\nf 1 2 3\n", kLoads, "is not defined"},
       {"material without a name", v3 + "usemtl\nf 1 2 3\n", kLoads, ""},
       {"mtllib without a name", "mtllib\n" + v3 + "f 1 2 3\n", kLoads, "a.obj:1: warning: material library"},
@@ -127,9 +140,17 @@ std::vector<HostileObj> hostile_objs() {
       {"mtllib is the obj", "mtllib a.obj\n" + v3 + "usemtl m\nf 1 2 3\n", kLoads, "unknown statements"},
       {"mtllib is a folder", "mtllib .\n" + v3 + "f 1 2 3\n", kLoads, "directory"},
       {"mtllib with a long name", "mtllib " + repeat("n", 5000) + "\n" + v3 + "f 1 2 3\n", kLoads, "not found"},
-      {"mtllib through many folders", "mtllib " + repeat("x/../", 1000) + "a.mtl\n" + v3 + "f 1 2 3\n", kLoads, "a.obj:1: warning"},
+      {"mtllib through many folders", "mtllib " + repeat("x/../", 1000) + "a.mtl\n" + v3 + "f 1 2 3\n", kLoads,
+       "a.obj:1: warning"},
       {"many mtllib", repeat("mtllib a.mtl\n", 1000), 257, "mtllib"},
-      {"many undefined materials", v3 + [] { std::string t; for (int i = 0; i < 5000; ++i) t += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n"; return t; }(), kLoads, "more messages left out"},
+      {"many undefined materials",
+       v3 +
+           [] {
+             std::string t;
+             for (int i = 0; i < 5000; ++i) t += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+             return t;
+           }(),
+       kLoads, "more messages left out"},
       {"smoothing of letters", v3 + "s many\nf 1 2 3\n", kLoads, "a.obj:4: warning: smoothing"},
       {"smoothing huge", v3 + "s 99999999999\nf 1 2 3\n", kLoads, "a.obj:4: warning: smoothing"},
       {"percent signs", v3 + "usemtl %s%n%d\nf 1 2 3\n", kLoads, "'%s%n%d'"},
@@ -164,7 +185,10 @@ TEST(HostileFiles, WhatIsNoReadableFile) {
   fs::create_directory(folder.file("folder.obj"));
   fs::create_symlink("nowhere.obj", folder.file("dangling.obj"));
   fs::create_symlink("loop.obj", folder.file("loop.obj"));
-  const struct { std::string path; const char* says; } cases[] = {
+  const struct {
+    std::string path;
+    const char* says;
+  } cases[] = {
       {folder.file("missing.obj"), "no such file"},
       {folder.file("missing.toml"), "no such file"},
       {folder.file("missing.gltf"), "no such file"},
@@ -207,8 +231,14 @@ TEST(HostileToml, DeepWideAndTruncated) {
       obj + "x = " + repeat("[", 100000) + repeat("]", 100000),
       obj + "x = " + repeat("{a=", 10000) + "1" + repeat("}", 10000),
       obj + "[" + repeat("a.", 50000) + "a]\n",
+      obj + "[" + repeat("a.", 4000000) + "a]\n",
+      obj + "[" + repeat("a.", 1000) + "a]\n" + repeat("b.", 1000) + "b = " + repeat("{c.c.c = [", 8) + "1" + repeat("]}", 8) +
+          "\n",
       obj + "\"" + repeat("k", 1 << 20) + "\" = 1\n",
       obj + "background = [" + repeat("0,", 1 << 18) + "]\n",
+      obj + "[=",
+      obj + "[.a]",
+      obj + "x = {=}",
       obj + "x = \"" + repeat("y", 1 << 20),
       obj + "x = 1e999999999999999999\n",
       obj + "x = 99999999999999999999999\n",
@@ -220,7 +250,8 @@ TEST(HostileToml, DeepWideAndTruncated) {
       "obj = \"s.toml\"\n",
       "obj = \"/dev/zero\"\n",
       "obj = {}\n",
-      "\xff\xfe" "o\0b\0j\0",
+      "\xff\xfe"
+      "o\0b\0j\0",
       repeat("#", 1 << 20),
       "[technique]\nshading = \"" + repeat("q", 1 << 20) + "\"\n" + obj,
   };
@@ -236,11 +267,32 @@ TEST(HostileMtl, AnythingLoadsWithWarnings) {
   const TempFolder folder;
   fs::create_directory(folder.file("f.png"));
   const std::string cases[] = {
-      "", "newmtl", "newmtl\nKd 1 0 0\n", "Kd 1 0 0\n", "newmtl m\nKd\n", "newmtl m\nKd 1e999 nan -inf\n", "newmtl m\nillum -2147483649\n",
-      "newmtl m\nillum 1e30\n", "newmtl m\nNs -1e38\nNi 0\nd nan\nTr 5\n", "newmtl m\nmap_Kd f.png\n", "newmtl m\nmap_Kd .\n", "newmtl m\nmap_Kd ..\n",
-      "newmtl m\nmap_Kd /dev/zero\n", "newmtl m\nmap_Kd a.obj\n", "newmtl m\nmap_Kd -s -s -s x\n", "newmtl m\nmap_Kd -mm nan inf x.png\n", "newmtl m\nmap_Kd -\n",
-      "newmtl m\nmap_Kd " + repeat("-o 1 1 1 ", 50000) + "x\n", "newmtl m\nmap_Kd " + repeat("y", 1 << 20) + "\n", "newmtl " + repeat("n", 1 << 20) + "\n",
-      repeat("newmtl m\n", 20000), repeat("garbage\n", 20000), std::string("\0\1\2\3\4\5newmtl m\nKd 1\0 1 1\n", 26), "newmtl m\nKd 1 1 1\\\n", "newmtl m\nbump -bm\n", "newmtl m\nmap_d -imfchan\n",
+      "",
+      "newmtl",
+      "newmtl\nKd 1 0 0\n",
+      "Kd 1 0 0\n",
+      "newmtl m\nKd\n",
+      "newmtl m\nKd 1e999 nan -inf\n",
+      "newmtl m\nillum -2147483649\n",
+      "newmtl m\nillum 1e30\n",
+      "newmtl m\nNs -1e38\nNi 0\nd nan\nTr 5\n",
+      "newmtl m\nmap_Kd f.png\n",
+      "newmtl m\nmap_Kd .\n",
+      "newmtl m\nmap_Kd ..\n",
+      "newmtl m\nmap_Kd /dev/zero\n",
+      "newmtl m\nmap_Kd a.obj\n",
+      "newmtl m\nmap_Kd -s -s -s x\n",
+      "newmtl m\nmap_Kd -mm nan inf x.png\n",
+      "newmtl m\nmap_Kd -\n",
+      "newmtl m\nmap_Kd " + repeat("-o 1 1 1 ", 50000) + "x\n",
+      "newmtl m\nmap_Kd " + repeat("y", 1 << 20) + "\n",
+      "newmtl " + repeat("n", 1 << 20) + "\n",
+      repeat("newmtl m\n", 20000),
+      repeat("garbage\n", 20000),
+      std::string("\0\1\2\3\4\5newmtl m\nKd 1\0 1 1\n", 26),
+      "newmtl m\nKd 1 1 1\\\n",
+      "newmtl m\nbump -bm\n",
+      "newmtl m\nmap_d -imfchan\n",
   };
   for (const std::string& text : cases) {
     SCOPED_TRACE(text.substr(0, 60));
@@ -258,25 +310,41 @@ TEST(HostileMutations, KeepTheInvariantsOrFail) {
   const TempFolder folder;
   folder.write("t.png", encode_png_fixture({}, {std::string("\1\2\3", 3)}));
   const std::string files[3] = {
-      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1e0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl m\ns 1\nf 1/1/1 2/2/1 3/1/1 4/2/1\ns off\nf -1 -2 -3\nf 1//1 2//1 5//1\n",
-      "newmtl m\nKa 1 1 1\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 0.5\nillum 3\nmap_Kd -s 2 2 1 -o 0.5 0 0 t.png\nbump -bm 2 -imfchan r t.png\nnewmtl n\nTr 0.25\n",
-      "obj = \"a.obj\"\nbackground = [0, 0.5, 1]\n[[camera]]\nname = \"c\"\neye = [0, 1, 3]\ntarget = [0, 1, 0]\nfov_y = 40\n[[light]]\nkind = \"point\"\nposition = [1, 1, 1]\nintensity = [1, 2, 3]\n"
-      "[[path]]\ntime = 0\neye = [0, 0, 1]\ntarget = [0, 0, 0]\n[technique]\nshading = \"flat\"\nmax_bounces = 3\n[material.m]\nopacity = 0.5\n"};
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1e0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl m\ns 1\nf 1/1/1 2/2/1 "
+      "3/1/1 4/2/1\ns off\nf -1 -2 -3\nf 1//1 2//1 5//1\n",
+      "newmtl m\nKa 1 1 1\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 0.5\nillum 3\nmap_Kd -s 2 2 1 -o 0.5 0 0 t.png\nbump -bm 2 "
+      "-imfchan r t.png\nnewmtl n\nTr 0.25\n",
+      "obj = \"a.obj\"\nbackground = [0, 0.5, 1]\n[[camera]]\nname = \"c\"\neye = [0, 1, 3]\ntarget = [0, 1, 0]\nfov_y = "
+      "40\n[[light]]\nkind = \"point\"\nposition = [1, 1, 1]\nintensity = [1, 2, 3]\n"
+      "[[path]]\ntime = 0\neye = [0, 0, 1]\ntarget = [0, 0, 0]\n[technique]\nshading = \"flat\"\nmax_bounces = "
+      "3\n[material.m]\nopacity = 0.5\n"};
   constexpr const char* kNames[3] = {"a.obj", "a.mtl", "s.toml"};
   constexpr std::string_view kInteresting = "0123456789.-+/\\ \n\r\t#\"[]={}enfv,\x00\xff";
   std::mt19937 rng(20240601);
+  const char* more = std::getenv("SPANRAY_FUZZ_ROUNDS");  // for longer runs under the sanitizers
+  const int rounds = more != nullptr ? std::atoi(more) : 3000;
   int loaded = 0, failed = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const size_t target = static_cast<size_t>(round % 3);
     std::string text = files[target];
     for (uint32_t edits = 1 + rng() % 4; edits > 0 && !text.empty(); --edits) {
       const size_t at = rng() % text.size();
       switch (rng() % 5) {
-        case 0: text[at] = kInteresting[rng() % kInteresting.size()]; break;
-        case 1: text.erase(at, 1 + rng() % 8); break;
-        case 2: text.insert(at, 1, kInteresting[rng() % kInteresting.size()]); break;
-        case 3: text.insert(at, text.substr(rng() % text.size(), rng() % 40)); break;
-        default: if (rng() % 8 == 0) text.resize(at); break;
+        case 0:
+          text[at] = kInteresting[rng() % kInteresting.size()];
+          break;
+        case 1:
+          text.erase(at, 1 + rng() % 8);
+          break;
+        case 2:
+          text.insert(at, 1, kInteresting[rng() % kInteresting.size()]);
+          break;
+        case 3:
+          text.insert(at, text.substr(rng() % text.size(), rng() % 40));
+          break;
+        default:
+          if (rng() % 8 == 0) text.resize(at);
+          break;
       }
     }
     for (size_t i = 0; i < 3; ++i) folder.write(kNames[i], i == target ? text : files[i]);

@@ -39,7 +39,9 @@ class MaterialTest : public ::testing::Test {
 bool equal3(const float* v, float r, float g, float b) { return v[0] == r && v[1] == g && v[2] == b; }
 
 TEST_F(MaterialTest, AllNumbers) {
-  const Material m = material("Ka 0.1 0.2 0.3\n\tKd 0.4 0.5 0.6 # comment\nKs 0.7 0.8 0.9\nKe 1 2 3\nTf 0.5 0.25 0.125\nNs 42.5\nNi 1.33\nd 1\nillum 2\n");
+  const Material m = material(
+      "Ka 0.1 0.2 0.3\n\tKd 0.4 0.5 0.6 # comment\nKs 0.7 0.8 0.9\nKe 1 2 3\nTf 0.5 0.25 0.125\nNs 42.5\nNi 1.33\nd 1\nillum "
+      "2\n");
   EXPECT_TRUE(equal3(m.ambient, 0.1f, 0.2f, 0.3f));
   EXPECT_TRUE(equal3(m.diffuse, 0.4f, 0.5f, 0.6f));
   EXPECT_TRUE(equal3(m.specular, 0.7f, 0.8f, 0.9f));
@@ -62,8 +64,10 @@ TEST_F(MaterialTest, AbsentFieldsHaveTheirDefaults) {
 
 TEST_F(MaterialTest, IllumDecidesWhatIsModelled) {
   const std::string colors = "Kd 0.5 0.5 0.5\nKs 0.2 0.3 0.4\n";
-  for (const int illum : {3, 5, 8}) EXPECT_TRUE(equal3(material(colors + "illum " + std::to_string(illum)).mirror, 0.2f, 0.3f, 0.4f)) << illum;
-  for (const int illum : {0, 1, 2, 4, 6, 7, 9, 10}) EXPECT_TRUE(equal3(material(colors + "illum " + std::to_string(illum)).mirror, 0, 0, 0)) << illum;
+  for (const int illum : {3, 5, 8})
+    EXPECT_TRUE(equal3(material(colors + "illum " + std::to_string(illum)).mirror, 0.2f, 0.3f, 0.4f)) << illum;
+  for (const int illum : {0, 1, 2, 4, 6, 7, 9, 10})
+    EXPECT_TRUE(equal3(material(colors + "illum " + std::to_string(illum)).mirror, 0, 0, 0)) << illum;
   EXPECT_TRUE(equal3(material(colors + "illum 1\n").specular, 0, 0, 0));
   EXPECT_TRUE(equal3(material("Ks 2 2 2\nillum 3\n").mirror, 1, 1, 1)) << "Y12: throughput never grows";
   const Material constant = material(colors + "Ke 1 0 0\nillum 0\n");
@@ -121,13 +125,15 @@ TEST_F(MaterialTest, WordsAndNotFiniteNumbersAreLeftOutWithAWarning) {
   const Material& m = l.scene().materials[0];
   EXPECT_TRUE(equal3(m.diffuse, 0.8f, 0.8f, 0.8f));
   EXPECT_EQ(m.shininess, 1.0f);
-  for (int line = 2; line <= 7; ++line) EXPECT_EQ(l.count({("a.mtl:" + std::to_string(line) + ":").c_str()}), 1) << line << "\n" << l.all_messages();
+  for (int line = 2; line <= 7; ++line)
+    EXPECT_EQ(l.count({("a.mtl:" + std::to_string(line) + ":").c_str()}), 1) << line << "\n" << l.all_messages();
 }
 
 TEST_F(MaterialTest, AllMapsAndOptions) {
   for (const char* n : {"1.png", "2.png", "3.png"}) write_png(n);
   const Loaded l = load(
-      "newmtl m\nmap_Ka 1.png\nmap_Kd -o 0.5 -0.25 0 -s 2 3 1 -clamp on 2.png\nmap_Ks -mm 0.25 0.5 3.png\nmap_Ns -imfchan g 1.png\nmap_Ke 2.png\n"
+      "newmtl m\nmap_Ka 1.png\nmap_Kd -o 0.5 -0.25 0 -s 2 3 1 -clamp on 2.png\nmap_Ks -mm 0.25 0.5 3.png\nmap_Ns -imfchan g "
+      "1.png\nmap_Ke 2.png\n"
       "map_d -imfchan l 3.png\nmap_Bump -bm 0.125 1.png\nnorm -blendu off -cc on 2.png\n");
   ASSERT_EQ(l.count({"warning"}), 0) << l.all_messages();
   const Material& m = l.scene().materials[0];
@@ -170,8 +176,9 @@ TEST_F(MaterialTest, OptionsThatAreWrongOrUnknown) {
 TEST_F(MaterialTest, FileNamesAsOtherSystemsWriteThem) {
   fs::create_directories(folder_.file("Textures/Deep"));
   write_png("Textures/Deep/Stone Wall.PNG");
-  for (const char* name : {"Textures/Deep/Stone Wall.PNG", "textures\\deep\\stone wall.png", "TEXTURES//deep/./Stone Wall.png", "\"Textures/Deep/Stone Wall.PNG\"",
-                           ".\\Textures\\..\\textures\\Deep\\stone WALL.png", "-s 2 2 textures\\deep\\stone wall.png", "Textures/Deep/Stone Wall.PNG # wall"}) {
+  for (const char* name : {"Textures/Deep/Stone Wall.PNG", "textures\\deep\\stone wall.png", "TEXTURES//deep/./Stone Wall.png",
+                           "\"Textures/Deep/Stone Wall.PNG\"", ".\\Textures\\..\\textures\\Deep\\stone WALL.png",
+                           "-s 2 2 textures\\deep\\stone wall.png", "Textures/Deep/Stone Wall.PNG # wall"}) {
     const Loaded l = load(std::string("newmtl m\r\nmap_Kd ") + name + "\r\n");
     EXPECT_GE(l.scene().materials[0].map_diffuse, 0) << name << "\n" << l.all_messages();
   }
@@ -208,8 +215,10 @@ TEST_F(MaterialTest, MissingOrBrokenTexturesAreWarningsWithFileLineAndCause) {
   fs::create_directory(folder_.file("folder.png"));
   std::string bytes = encode_png_fixture({}, {std::string("\1\2\3", 3)});
   folder_.write("short.png", bytes.substr(0, bytes.size() / 2));
-  const Loaded l = load("newmtl m\nmap_Kd none.png\nmap_Ks text.png\nmap_Ke empty.png\nmap_Ns folder.png\nbump short.png\nnorm good.png\n");
-  for (int line = 2; line <= 6; ++line) EXPECT_EQ(l.count({"warning", ("a.mtl:" + std::to_string(line) + ":").c_str()}), 1) << l.all_messages();
+  const Loaded l =
+      load("newmtl m\nmap_Kd none.png\nmap_Ks text.png\nmap_Ke empty.png\nmap_Ns folder.png\nbump short.png\nnorm good.png\n");
+  for (int line = 2; line <= 6; ++line)
+    EXPECT_EQ(l.count({"warning", ("a.mtl:" + std::to_string(line) + ":").c_str()}), 1) << l.all_messages();
   const Material& m = l.scene().materials[0];
   EXPECT_EQ(m.map_diffuse, -1);
   EXPECT_EQ(m.map_bump, -1);
@@ -218,7 +227,8 @@ TEST_F(MaterialTest, MissingOrBrokenTexturesAreWarningsWithFileLineAndCause) {
 }
 
 TEST_F(MaterialTest, LibrariesAndNamesThatAreMissing) {
-  const Loaded no_library = must_load(folder_.write("b.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n\nusemtl gone\nf 1 2 3\nusemtl gone\nf 3 2 1\n"));
+  const Loaded no_library = must_load(
+      folder_.write("b.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n\nusemtl gone\nf 1 2 3\nusemtl gone\nf 3 2 1\n"));
   EXPECT_EQ(no_library.count({"b.obj:1:", "none.mtl"}), 1) << no_library.all_messages();
   EXPECT_EQ(no_library.count({"b.obj:6:", "'gone'"}), 1);
   EXPECT_EQ(no_library.scene().materials.size(), 1u);
@@ -261,7 +271,9 @@ TEST_F(MaterialTest, I8_TexelsOfColorsEncodeToTheirBytesAgain) {
   }
 }
 
-RawImage image_of(int width, int height, int channels, int bits, std::vector<uint16_t> samples) { return {width, height, channels, bits, std::move(samples)}; }
+RawImage image_of(int width, int height, int channels, int bits, std::vector<uint16_t> samples) {
+  return {width, height, channels, bits, std::move(samples)};
+}
 
 TEST(Textures, ChannelsAndDepths) {
   SceneData s;
@@ -269,7 +281,9 @@ TEST(Textures, ChannelsAndDepths) {
   ASSERT_TRUE(append_texture(image_of(1, 1, 2, 8, {0, 128}), true, s));
   ASSERT_TRUE(append_texture(image_of(1, 1, 4, 16, {1, 2, 3, 4}), false, s));
   ASSERT_TRUE(append_texture(image_of(1, 1, 3, 16, {65535, 0, 65535}), true, s));
-  const auto is = [&](size_t i, int r, int g, int b, int a) { return s.texels[i].r == r && s.texels[i].g == g && s.texels[i].b == b && s.texels[i].a == a; };
+  const auto is = [&](size_t i, int r, int g, int b, int a) {
+    return s.texels[i].r == r && s.texels[i].g == g && s.texels[i].b == b && s.texels[i].a == a;
+  };
   EXPECT_TRUE(is(0, 65535, 65535, 65535, 65535));
   EXPECT_TRUE(is(1, 0, 0, 0, 128 * 257));  // alpha is never decoded
   EXPECT_TRUE(is(2, 1, 2, 3, 4));
@@ -282,7 +296,8 @@ TEST(Textures, SixteenBitColorsAgreeWithEightBitOnes) {
   for (int i = 0; i < 256; ++i) eight.push_back(static_cast<uint16_t>(i)), sixteen.push_back(static_cast<uint16_t>(i * 257));
   ASSERT_TRUE(append_texture(image_of(256, 1, 1, 8, eight), true, s));
   ASSERT_TRUE(append_texture(image_of(256, 1, 1, 16, sixteen), true, s));
-  for (int i = 0; i < 256; ++i) EXPECT_EQ(s.texels[static_cast<size_t>(i)].r, s.texels[static_cast<size_t>(s.textures[1].offset[0] + i)].r) << i;
+  for (int i = 0; i < 256; ++i)
+    EXPECT_EQ(s.texels[static_cast<size_t>(i)].r, s.texels[static_cast<size_t>(s.textures[1].offset[0] + i)].r) << i;
 }
 
 // The oracle repeats every texel dst times along each axis, so that each destination texel covers whole ones.

@@ -23,7 +23,8 @@ glm::dvec3 vec(const float* p) { return {p[0], p[1], p[2]}; }
 double signed_area_xy(const SceneData& scene) {
   double area = 0;
   for (size_t i = 0; i < scene.triangles.size(); ++i) {
-    const glm::dvec3 a = vec(corner(scene, i, 0).position), b = vec(corner(scene, i, 1).position), c = vec(corner(scene, i, 2).position);
+    const glm::dvec3 a = vec(corner(scene, i, 0).position), b = vec(corner(scene, i, 1).position),
+                     c = vec(corner(scene, i, 2).position);
     area += cross3(b - a, c - a).z / 2;
   }
   return area;
@@ -63,7 +64,8 @@ TEST(ObjPolygons, ConcavePolygonsAreCoveredExactlyOnce) {
     ASSERT_EQ(star.scene().triangles.size(), static_cast<size_t>(n - 2));
     EXPECT_NEAR(signed_area_xy(star.scene()), want, 1e-9 * want);
     for (size_t i = 0; i < star.scene().triangles.size(); ++i) {
-      const glm::dvec3 a = vec(corner(star.scene(), i, 0).position), b = vec(corner(star.scene(), i, 1).position), c = vec(corner(star.scene(), i, 2).position);
+      const glm::dvec3 a = vec(corner(star.scene(), i, 0).position), b = vec(corner(star.scene(), i, 1).position),
+                       c = vec(corner(star.scene(), i, 2).position);
       EXPECT_GE(cross3(b - a, c - a).z, 0) << "round " << round << " triangle " << i;
     }
   }
@@ -83,7 +85,8 @@ TEST(ObjPolygons, CollinearCornersLeaveNoTJunction) {
 
 TEST(ObjPolygons, RepeatedAndCrossingCornersGiveSomethingFinite) {
   const TempFolder folder;
-  for (const char* face : {"f 1 1 2 3 4\n", "f 1 2 3 4 4 1\n", "f 1 3 2 4\n", "f 1 1 1 1\n", "f 1 2 1 2\n", "f 1 2 1 3 1 4\n"}) {
+  for (const char* face :
+       {"f 1 1 2 3 4\n", "f 1 2 3 4 4 1\n", "f 1 3 2 4\n", "f 1 1 1 1\n", "f 1 2 1 2\n", "f 1 2 1 3 1 4\n"}) {
     const Loaded l = must_load(folder.write("a.obj", std::string(kQuad) + face));
     for (const Vertex& v : l.scene().vertices)
       for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isfinite(v.normal[k])) << face;
@@ -116,7 +119,8 @@ TEST(ObjIndices, PositiveOnesMayPointAhead) {
 TEST(ObjIndices, AllFormsOfCorners) {
   const TempFolder folder;
   const std::string head = std::string(kQuad) + "vt 0.25 0.5\nvn 0 0 -1\n";
-  for (const char* face : {"f 1/1/1 2/1/1 3/1/1\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1 2 3\n", "f 1/ 2/1/ 3//\n", "f\t1/1  2/-1/-1 \t 3/1/1   # last\n"}) {
+  for (const char* face : {"f 1/1/1 2/1/1 3/1/1\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1 2 3\n", "f 1/ 2/1/ 3//\n",
+                           "f\t1/1  2/-1/-1 \t 3/1/1   # last\n"}) {
     const Loaded l = must_load(folder.write("a.obj", head + face));
     ASSERT_EQ(l.scene().triangles.size(), 1u) << face;
     EXPECT_EQ(l.scene().vertices.size(), 3u);
@@ -129,9 +133,11 @@ TEST(ObjIndices, AllFormsOfCorners) {
 TEST(ObjText, LineEndsCommentsContinuationsAndMarksMeanNothing) {
   const TempFolder folder;
   const Loaded lf = must_load(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-  for (const char* same : {"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3",
-                           "\xef\xbb\xbfv 0 0 0 # origin\n\n\t v 1 0 0\n  v 0 1 0\nf 1 2 3 #1 2", "v 0 0 \\\n0\nv 1 \\\r\n 0 0\nv 0 1 0\nf 1 \\\n2 \\\n3",
-                           "v -0 0 -0.0\nv +1 0e5 0.\nv 0 10e-1 .0\nf 1 2 3", "v 0 0 0 1 0.5 0.5 0.5\nv 1 0 0 1\nv 0 1 0 0 0 0\ng a b c\no x\ns 1\nf 1 2 3"}) {
+  for (const char* same :
+       {"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3",
+        "\xef\xbb\xbfv 0 0 0 # origin\n\n\t v 1 0 0\n  v 0 1 0\nf 1 2 3 #1 2",
+        "v 0 0 \\\n0\nv 1 \\\r\n 0 0\nv 0 1 0\nf 1 \\\n2 \\\n3", "v -0 0 -0.0\nv +1 0e5 0.\nv 0 10e-1 .0\nf 1 2 3",
+        "v 0 0 0 1 0.5 0.5 0.5\nv 1 0 0 1\nv 0 1 0 0 0 0\ng a b c\no x\ns 1\nf 1 2 3"}) {
     const Loaded other = must_load(folder.write("b.obj", same));
     EXPECT_EQ(lf.scene().hash, other.scene().hash) << same;
   }
@@ -145,7 +151,16 @@ TEST(ObjText, ErrorsNameTheLineAfterContinuationsToo) {
 }
 
 TEST(ObjNumbers, DecimalsAreRoundedCorrectlyAndInAnyLocale) {
-  const char* const words[] = {"0.1", "16777217", "16777219", "1.000000059604644775390625", "3.4028235e38", "1e-45", "7.0064923216240862e-46", "123456789.123456789", "-1.17549435e-38", "0.30000001192092896"};
+  const char* const words[] = {"0.1",
+                               "16777217",
+                               "16777219",
+                               "1.000000059604644775390625",
+                               "3.4028235e38",
+                               "1e-45",
+                               "7.0064923216240862e-46",
+                               "123456789.123456789",
+                               "-1.17549435e-38",
+                               "0.30000001192092896"};
   std::string text;
   for (const char* w : words) text += std::string("v ") + w + " 0 0\n";
   Messages messages;
@@ -154,12 +169,14 @@ TEST(ObjNumbers, DecimalsAreRoundedCorrectlyAndInAnyLocale) {
   std::setlocale(LC_ALL, "C");
   if (!comma) std::printf("no German locale on this machine: only the C locale tested\n");
   ASSERT_TRUE(mesh);
-  for (size_t i = 0; i < std::size(words); ++i) EXPECT_EQ(mesh.value().positions[3 * i], std::strtof(words[i], nullptr)) << words[i];
+  for (size_t i = 0; i < std::size(words); ++i)
+    EXPECT_EQ(mesh.value().positions[3 * i], std::strtof(words[i], nullptr)) << words[i];
 }
 
 TEST(ObjNumbers, R14_OnlyTrianglesOfNotFiniteVerticesAreLostAndCounted) {
   const TempFolder folder;
-  for (const char* bad : {"nan", "inf", "-inf", "1e39", "-1e999", "NaN", "infinity", "99999999999999999999999999999999999999999999"}) {
+  for (const char* bad :
+       {"nan", "inf", "-inf", "1e39", "-1e999", "NaN", "infinity", "99999999999999999999999999999999999999999999"}) {
     const std::string text = std::string(kQuad) + "v " + bad + " 0 0\nf 1 2 3\nf 1 2 5\nf 1 3 4\nf 1 2 3 5\n";
     const Loaded l = must_load(folder.write("a.obj", text));
     EXPECT_EQ(l.scene().triangles.size(), 3u) << bad;  // the quad keeps the one triangle without the bad vertex
@@ -171,7 +188,8 @@ TEST(ObjNumbers, R14_OnlyTrianglesOfNotFiniteVerticesAreLostAndCounted) {
 
 TEST(ObjNumbers, NotFiniteNormalsAndCoordinatesAreRepairedAndCounted) {
   const TempFolder folder;
-  const Loaded l = must_load(folder.write("a.obj", std::string(kQuad) + "vn nan 0 1\nvn 0 0 0\nvt inf 0\nf 1/1/1 2/1/2 3/1/1\n"));
+  const Loaded l =
+      must_load(folder.write("a.obj", std::string(kQuad) + "vn nan 0 1\nvn 0 0 0\nvt inf 0\nf 1/1/1 2/1/2 3/1/1\n"));
   EXPECT_EQ(l.count({"3 corners", "normal"}), 1) << l.all_messages();
   EXPECT_EQ(l.count({"3 corners", "texture coordinates"}), 1) << l.all_messages();
   EXPECT_EQ(l.scene().vertices[0].normal[2], 1.0f);
@@ -210,7 +228,8 @@ TEST(ObjNormals, SeamsInIndicesAreSmoothedByPosition) {
   const TempFolder folder;
   // The same fold twice: once with shared, once with repeated positions (one of them written with -0).
   const Loaded shared = must_load(folder.write("a.obj", "v 0 0 0\nv 0 0 1\nv 1 0.1 0\nv -1 0.1 0\nf 1 2 3\nf 1 4 2\n"));
-  const Loaded seam = must_load(folder.write("b.obj", "v 0 0 0\nv 0 0 1\nv 1 0.1 0\nv -1 0.1 0\nv -0 0 0\nv 0 -0 1\nf 1 2 3\nf 5 4 6\n"));
+  const Loaded seam =
+      must_load(folder.write("b.obj", "v 0 0 0\nv 0 0 1\nv 1 0.1 0\nv -1 0.1 0\nv -0 0 0\nv 0 -0 1\nf 1 2 3\nf 5 4 6\n"));
   EXPECT_EQ(shared.scene().vertices.size(), 4u);
   EXPECT_EQ(shared.scene().hash, seam.scene().hash);
 }
@@ -222,18 +241,21 @@ TEST(ObjNormals, SphereNormalsAreRadial) {
     for (int s = 0; s < slices; ++s) {
       const double theta = 3.141592653589793 * r / rings, phi = 6.283185307179586 * s / slices;
       char line[100];
-      std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+      std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", std::sin(theta) * std::cos(phi), std::cos(theta),
+                    -std::sin(theta) * std::sin(phi));
       text += line;
     }
   for (int r = 0; r < rings; ++r)
     for (int s = 0; s < slices; ++s) {
       const int a = r * slices + s + 1, b = r * slices + (s + 1) % slices + 1;
-      text += "f " + std::to_string(a) + " " + std::to_string(a + slices) + " " + std::to_string(b + slices) + " " + std::to_string(b) + "\n";
+      text += "f " + std::to_string(a) + " " + std::to_string(a + slices) + " " + std::to_string(b + slices) + " " +
+              std::to_string(b) + "\n";
     }
   const TempFolder folder;
   const Loaded l = must_load(folder.write("sphere.obj", text));
   double worst = 1;
-  for (const Vertex& v : l.scene().vertices) worst = std::min(worst, dot3(vec(v.normal), normalize3(vec(v.position), glm::dvec3(0))));
+  for (const Vertex& v : l.scene().vertices)
+    worst = std::min(worst, dot3(vec(v.normal), normalize3(vec(v.position), glm::dvec3(0))));
   EXPECT_GT(worst, 0.995);
 }
 

@@ -15,15 +15,11 @@ struct RealScene {
   size_t triangles, materials, texture_files;
 };
 constexpr RealScene kRealScenes[] = {
-    {"sponza-dabrovic/sponza.obj", 66445, 19, 15},
-    {"breakfast-room/breakfast-room.obj", 269538, 15, 3},
-    {"grey-white-room/grey-white-room.obj", 143163, 19, 5},
-    {"small-pine/small-pine.obj", 1650, 2, 4},
+    {"sponza-dabrovic/sponza.obj", 66445, 19, 15},          {"breakfast-room/breakfast-room.obj", 269538, 15, 3},
+    {"grey-white-room/grey-white-room.obj", 143163, 19, 5}, {"small-pine/small-pine.obj", 1650, 2, 4},
     {"stanford-bunny/stanford-bunny.obj", 69451, 1, 0},  // one default material
-    {"cornell-box/CornellBox-Original.obj", 36, 8, 0},
-    {"cornell-box/CornellBox-Empty-CO.obj", 12, 8, 0},
-    {"cornell-box/CornellBox-Water.obj", 7088, 9, 0},
-    {"cornell-box/CornellBox-Sphere.obj", 2188, 8, 0},
+    {"cornell-box/CornellBox-Original.obj", 36, 8, 0},      {"cornell-box/CornellBox-Empty-CO.obj", 12, 8, 0},
+    {"cornell-box/CornellBox-Water.obj", 7088, 9, 0},       {"cornell-box/CornellBox-Sphere.obj", 2188, 8, 0},
 };
 
 class RealSceneTest : public ::testing::TestWithParam<RealScene> {};
@@ -40,7 +36,8 @@ TEST_P(RealSceneTest, CountsAreThoseOfItsReadme) {
   EXPECT_EQ(scene.triangles.size(), GetParam().triangles);
   EXPECT_EQ(scene.materials.size(), GetParam().materials);
   EXPECT_EQ(scene.textures.size(), GetParam().texture_files);
-  std::printf("vertices %zu texels %zu hash %016llx\n", scene.vertices.size(), scene.texels.size(), static_cast<unsigned long long>(scene.hash));
+  std::printf("vertices %zu texels %zu hash %016llx\n", scene.vertices.size(), scene.texels.size(),
+              static_cast<unsigned long long>(scene.hash));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RealSceneTest, ::testing::ValuesIn(kRealScenes));

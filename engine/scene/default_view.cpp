@@ -8,7 +8,10 @@
 namespace spanray {
 namespace {
 
-struct Sphere { glm::dvec3 center; double radius; };
+struct Sphere {
+  glm::dvec3 center;
+  double radius;
+};
 
 Sphere bounding_sphere(const SceneData& scene) {
   glm::dvec3 low, high;

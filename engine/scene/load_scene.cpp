@@ -34,7 +34,8 @@ void complete(SceneData& scene, bool lights_given, const std::string& path, Mess
     scene.cameras.push_back(fitted_camera(scene));
     scene.camera_names.emplace_back("fitted");
     const Camera& c = scene.cameras.front();
-    messages.note(path + ": no camera given; fitted to the bounds: eye " + place_text(c.eye) + ", target " + place_text(c.target) + ", 45 degrees");
+    messages.note(path + ": no camera given; fitted to the bounds: eye " + place_text(c.eye) + ", target " +
+                  place_text(c.target) + ", 45 degrees");
   }
   if (lights_given) {
     if (scene.lights.empty()) messages.note(path + ": the list of lights is empty: only ambient and emitted light");
@@ -101,7 +102,8 @@ const Settings& Scene::settings() const { return data_->settings; }
 
 Result<LoadedScene> load_scene(const std::string& path, const LoadOptions& options) {
   const FpEnvGuard guard;  // the host's rounding mode must not reach a vertex
-  if (!(options.crease_angle_degrees >= 0 && options.crease_angle_degrees <= 180)) return Error{"the crease angle must be 0 to 180 degrees"};
+  if (!(options.crease_angle_degrees >= 0 && options.crease_angle_degrees <= 180))
+    return Error{"the crease angle must be 0 to 180 degrees"};
   try {
     const auto scene = std::make_shared<SceneData>();
     Messages messages;

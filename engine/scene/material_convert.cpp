@@ -12,7 +12,8 @@ constexpr float kMostRadiance = 1e12f;  // keeps products of colors finite
 
 class Converter {
  public:
-  Converter(const MtlMaterial& mtl, const std::string& file, Messages& messages) : mtl_(mtl), file_(file), messages_(messages) {}
+  Converter(const MtlMaterial& mtl, const std::string& file, Messages& messages)
+      : mtl_(mtl), file_(file), messages_(messages) {}
 
   Material convert() {
     Material m;
@@ -61,13 +62,16 @@ class Converter {
 
   void opacity(Material& m) {
     const MtlNumbers &d = mtl_[MtlField::kD], &tr = mtl_[MtlField::kTr];
-    if (d.line > 0) m.opacity = scalar(MtlField::kD, "d", 1, 0, 1);
-    else if (tr.line > 0) m.opacity = 1 - scalar(MtlField::kTr, "Tr", 0, 0, 1);
+    if (d.line > 0)
+      m.opacity = scalar(MtlField::kD, "d", 1, 0, 1);
+    else if (tr.line > 0)
+      m.opacity = 1 - scalar(MtlField::kTr, "Tr", 0, 0, 1);
     if (d.line > 0 && tr.line > 0 && std::fabs(d.value[0] + tr.value[0] - 1) > 1e-3f)
       warn(tr.line, "d " + number_text(d.value[0]) + " and Tr " + number_text(tr.value[0]) + " disagree; d taken");
     MaterialTransparency transparency = m.opacity < 1 ? MaterialTransparency::kAlpha : MaterialTransparency::kOpaque;
     if (mtl_[MtlMap::kD].line > 0) {
-      if (m.opacity < 1) warn(d.line > 0 ? d.line : tr.line, "has a map_d, so its opacity " + number_text(m.opacity) + " is taken for 1");
+      if (m.opacity < 1)
+        warn(d.line > 0 ? d.line : tr.line, "has a map_d, so its opacity " + number_text(m.opacity) + " is taken for 1");
       transparency = MaterialTransparency::kMask;
       m.opacity = 1;
     }

@@ -6,18 +6,26 @@
 namespace spanray {
 namespace {
 
-struct FieldName { const char* name; MtlField field; bool color; };
-constexpr FieldName kFields[] = {
-    {"ka", MtlField::kKa, true},  {"kd", MtlField::kKd, true},  {"ks", MtlField::kKs, true},  {"ke", MtlField::kKe, true},
-    {"tf", MtlField::kTf, true},  {"kt", MtlField::kTf, true},  {"ns", MtlField::kNs, false}, {"ni", MtlField::kNi, false},
-    {"d", MtlField::kD, false},   {"tr", MtlField::kTr, false}, {"illum", MtlField::kIllum, false}};
-struct MapName { const char* name; MtlMap map; };
+struct FieldName {
+  const char* name;
+  MtlField field;
+  bool color;
+};
+constexpr FieldName kFields[] = {{"ka", MtlField::kKa, true},  {"kd", MtlField::kKd, true},       {"ks", MtlField::kKs, true},
+                                 {"ke", MtlField::kKe, true},  {"tf", MtlField::kTf, true},       {"kt", MtlField::kTf, true},
+                                 {"ns", MtlField::kNs, false}, {"ni", MtlField::kNi, false},      {"d", MtlField::kD, false},
+                                 {"tr", MtlField::kTr, false}, {"illum", MtlField::kIllum, false}};
+struct MapName {
+  const char* name;
+  MtlMap map;
+};
 constexpr MapName kMaps[] = {{"map_ka", MtlMap::kKa},     {"map_kd", MtlMap::kKd}, {"map_ks", MtlMap::kKs},
                              {"map_ns", MtlMap::kNs},     {"map_ke", MtlMap::kKe}, {"map_d", MtlMap::kD},
                              {"map_bump", MtlMap::kBump}, {"bump", MtlMap::kBump}, {"norm", MtlMap::kNormal}};
 // Known, and not part of this version.
-constexpr const char* kUnsupported[] = {"map_tr", "map_ni", "map_pr", "map_pm", "map_ps", "map_aat", "map_disp", "disp", "decal", "refl", "map_refl",
-                                        "pr", "pm", "ps", "pc", "pcr", "aniso", "anisor", "sharpness"};
+constexpr const char* kUnsupported[] = {"map_tr", "map_ni", "map_pr", "map_pm",   "map_ps",   "map_aat", "map_disp",
+                                        "disp",   "decal",  "refl",   "map_refl", "pr",       "pm",      "ps",
+                                        "pc",     "pcr",    "aniso",  "anisor",   "sharpness"};
 
 class MtlReader {
  public:
@@ -27,7 +35,8 @@ class MtlReader {
   std::vector<MtlMaterial> read() {
     for (std::string_view line; lines_.next(&line);) statement(line);
     if (unknown_ > 0)
-      messages_.warn(file_, unknown_line_, std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
+      messages_.warn(file_, unknown_line_,
+                     std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
     return std::move(materials_);
   }
 
@@ -78,8 +87,10 @@ class MtlReader {
     int count = 0;
     for (std::string_view word; count < (f.color ? 3 : 1) && !(word = next_word(rest)).empty();) {
       if (word == "-halo") continue;
-      if (count == 0 && (word == "spectral" || word == "xyz")) return warn(std::string(key) + " " + std::string(word) + " is not supported; ignored");
-      if (!parse_float(word, &numbers.value[count])) return warn(quoted(word) + " is not a number; " + std::string(key) + " ignored");
+      if (count == 0 && (word == "spectral" || word == "xyz"))
+        return warn(std::string(key) + " " + std::string(word) + " is not supported; ignored");
+      if (!parse_float(word, &numbers.value[count]))
+        return warn(quoted(word) + " is not a number; " + std::string(key) + " ignored");
       if (!std::isfinite(numbers.value[count])) return warn(quoted(word) + " is not finite; " + std::string(key) + " ignored");
       ++count;
     }
@@ -104,7 +115,8 @@ class MtlReader {
     material->maps[static_cast<int>(map)] = t;
   }
 
-  // Up to `most` finite numbers at the front of rest. The last word of the line is the file name, even if it looks like a number.
+  // Up to `most` finite numbers at the front of rest. The last word of the line is the file name, even if it looks like a
+  // number.
   static int option_numbers(std::string_view& rest, float* out, int most) {
     int count = 0;
     while (count < most) {

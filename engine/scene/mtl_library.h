@@ -1,5 +1,5 @@
-// What an MTL file says, before it becomes materials. tinyobjloader's MTL reader is not used: it keeps no line numbers, takes an
-// absent Kd for black and drops Tr beside d.
+// What an MTL file says, before it becomes materials. tinyobjloader's MTL reader is not used: it keeps no line numbers, takes
+// an absent Kd for black and drops Tr beside d.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -35,15 +35,19 @@ struct MtlMaterial {
   const MtlTexture& operator[](MtlMap m) const { return maps[static_cast<int>(m)]; }
 };
 
-inline bool is_color(MtlMap map) { return map == MtlMap::kKa || map == MtlMap::kKd || map == MtlMap::kKs || map == MtlMap::kKe; }
+inline bool is_color(MtlMap map) {
+  return map == MtlMap::kKa || map == MtlMap::kKd || map == MtlMap::kKs || map == MtlMap::kKe;
+}
 const char* mtl_map_name(MtlMap map);
 
-// Never fails: what it cannot use it warns about, with file and line, and leaves out. Values are as written, unchecked but finite.
+// Never fails: what it cannot use it warns about, with file and line, and leaves out. Values are as written, unchecked but
+// finite.
 std::vector<MtlMaterial> read_mtl(std::string_view text, const std::string& file, Messages& messages);
 
 // Numbers of a material, textures left out. Choices:
 // - Ka absent or zero: ambient = Kd. Kd absent: 0.8, or 1 where there is a map_Kd. d wins over Tr = 1 - d.
-// - illum 0 (constant color): Kd is emitted, nothing is reflected. 1: no highlight. 3, 5, 8: mirror = Ks (8, "reflection without
+// - illum 0 (constant color): Kd is emitted, nothing is reflected. 1: no highlight. 3, 5, 8: mirror = Ks (8, "reflection
+// without
 //   ray tracing", is the same here). 4, 6, 7, 9 (glass): blended by d, no mirror. 10 and unknown: as 2, with a warning.
 // - opacity < 1: kAlpha; with a map_d: kMask and opacity 1.
 // Colors are clamped to >= 0, Kd, Tf and opacity to [0, 1], Ns to [0, 1e4], each with a warning.

@@ -21,16 +21,20 @@ constexpr int64_t kTriangulationBudget = 50'000'000;  // point tests, about a qu
 using MaterialIndex = std::unordered_map<std::string, uint32_t>;
 
 int32_t* slot_of(Material& m, MtlMap map) {
-  int32_t* const slots[] = {&m.map_ambient, &m.map_diffuse, &m.map_specular, &m.map_shininess,
-                            &m.map_emission, &m.map_opacity, &m.map_bump, &m.map_normal};
+  int32_t* const slots[] = {&m.map_ambient,  &m.map_diffuse, &m.map_specular, &m.map_shininess,
+                            &m.map_emission, &m.map_opacity, &m.map_bump,     &m.map_normal};
   return slots[static_cast<int>(map)];
 }
 
 class MaterialLoader {
  public:
   MaterialLoader(const std::string& obj, const LoadOptions& options, SceneData& scene, Messages& messages)
-      : obj_(obj), folder_(folder_of(obj)), finder_(folder_, options.allow_outside), textures_(finder_, scene, messages),
-        scene_(scene), messages_(messages) {}
+      : obj_(obj),
+        folder_(folder_of(obj)),
+        finder_(folder_, options.allow_outside),
+        textures_(finder_, scene, messages),
+        scene_(scene),
+        messages_(messages) {}
 
   // One line of mtllib: one file name, or several without spaces.
   void library(const ObjNamed& line) {
@@ -41,8 +45,10 @@ class MaterialLoader {
     bool several = false;
     for (std::string_view rest = name, word; !(word = next_word(rest)).empty() && word != name; several = true) {
       const Result<std::string> path = finder_.find(folder_, word);
-      if (path) file(path.value());
-      else messages_.warn(obj_, line.line, "material library: " + path.error().message);
+      if (path)
+        file(path.value());
+      else
+        messages_.warn(obj_, line.line, "material library: " + path.error().message);
     }
     if (!several) messages_.warn(obj_, line.line, "material library: " + whole.error().message);
   }
@@ -51,7 +57,9 @@ class MaterialLoader {
   uint32_t find(const ObjNamed& used) {
     const auto it = index_.find(used.name);
     if (it != index_.end()) return it->second;
-    if (!used.name.empty()) messages_.warn(obj_, used.line, "material " + quoted(used.name) + " is not defined; the default material takes its place");
+    if (!used.name.empty())
+      messages_.warn(obj_, used.line,
+                     "material " + quoted(used.name) + " is not defined; the default material takes its place");
     if (default_ < 0) {
       default_ = static_cast<int64_t>(scene_.materials.size());
       scene_.materials.emplace_back();
@@ -103,7 +111,8 @@ class MaterialLoader {
 Vertex vertex_of(const ObjMesh& mesh, const ObjCorner& c) {
   Vertex v{};
   for (int k = 0; k < 3; ++k) v.position[k] = mesh.positions[3 * static_cast<size_t>(c.position) + static_cast<size_t>(k)];
-  for (int k = 0; k < 3 && c.normal >= 0; ++k) v.normal[k] = mesh.normals[3 * static_cast<size_t>(c.normal) + static_cast<size_t>(k)];
+  for (int k = 0; k < 3 && c.normal >= 0; ++k)
+    v.normal[k] = mesh.normals[3 * static_cast<size_t>(c.normal) + static_cast<size_t>(k)];
   for (int k = 0; k < 2 && c.uv >= 0; ++k) v.uv[k] = mesh.uvs[2 * static_cast<size_t>(c.uv) + static_cast<size_t>(k)];
   return v;
 }
@@ -121,7 +130,8 @@ struct Soup {
   int first_not_finite_line = 0;
 };
 
-Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::string& file, Messages& messages) {
+Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::string& file,
+               Messages& messages) {
   Soup soup;
   soup.triangles.reserve(mesh.faces.size());
   int64_t budget = kTriangulationBudget;
@@ -160,7 +170,8 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
   if (!read) return read.error();
   ObjMesh& mesh = read.value();
   if (mesh.libraries.size() > kMostLibraries)
-    return Error{"more than " + std::to_string(kMostLibraries) + " mtllib statements", path, mesh.libraries[kMostLibraries].line};
+    return Error{"more than " + std::to_string(kMostLibraries) + " mtllib statements", path,
+                 mesh.libraries[kMostLibraries].line};
 
   MaterialLoader materials(path, options, scene, messages);
   for (const ObjNamed& library : mesh.libraries) materials.library(library);

@@ -8,8 +8,8 @@
 
 namespace spanray {
 
-// Fills materials, textures and geometry of `scene` (which must be empty). Missing libraries, materials and textures are warnings.
-// Errors name file, line and cause.
+// Fills materials, textures and geometry of `scene` (which must be empty). Missing libraries, materials and textures are
+// warnings. Errors name file, line and cause.
 Result<void> load_obj(const std::string& path, const LoadOptions& options, SceneData& scene, Messages& messages);
 
 }  // namespace spanray

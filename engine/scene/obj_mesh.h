@@ -11,7 +11,9 @@
 
 namespace spanray {
 
-struct ObjCorner { int32_t position, uv, normal; };  // indices into the arrays of ObjMesh; uv and normal -1: not given
+struct ObjCorner {
+  int32_t position, uv, normal;
+};  // indices into the arrays of ObjMesh; uv and normal -1: not given
 
 inline constexpr uint32_t kSmoothingNotGiven = 0xffffffffu;
 struct ObjFace {
@@ -39,9 +41,9 @@ struct ObjMesh {
 Result<ObjMesh> read_obj(std::string_view text, const std::string& file, Messages& messages);
 
 // Unit normals of all corners that have none, as indices into mesh.normals (appended; never NaN but where positions are): the
-// mean of the faces around a position weighted by their angles there (Thuermer and Wuethrich 1998, "Computing Vertex Normals from
-// Polygonal Facets"), over faces of the same smoothing group that meet this one's normal at most at the crease angle.
-// `s off` gives the face normal. cos_crease: cosine of the angle.
+// mean of the faces around a position weighted by their angles there (Thuermer and Wuethrich 1998, "Computing Vertex Normals
+// from Polygonal Facets"), over faces of the same smoothing group that meet this one's normal at most at the crease angle. `s
+// off` gives the face normal. cos_crease: cosine of the angle.
 void add_missing_normals(ObjMesh& mesh, double cos_crease, const std::string& file, Messages& messages);
 
 // Cuts a polygon into triangles by ear clipping; convex ones become a fan around corner 0. positions: 3 floats a vertex.

@@ -27,7 +27,8 @@ namespace {
 
 // Statements that are known and say nothing about surfaces of polygons.
 bool is_ignored_statement(std::string_view key) {
-  for (const char* known : {"g", "o", "l", "p", "mg", "vp", "lod", "shadow_obj", "trace_obj", "usemap", "maplib", "bevel", "c_interp", "d_interp"})
+  for (const char* known :
+       {"g", "o", "l", "p", "mg", "vp", "lod", "shadow_obj", "trace_obj", "usemap", "maplib", "bevel", "c_interp", "d_interp"})
     if (key == known) return true;
   return false;
 }
@@ -56,7 +57,8 @@ class Guard : public std::streambuf {
   // What the whole text lacked.
   void finish() {
     if (unknown_ > 0 && statements_ > 0)
-      messages_.warn(file_, unknown_line_, std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
+      messages_.warn(file_, unknown_line_,
+                     std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
     if (unknown_ > 0 && statements_ == 0 && !failed_) {
       failed_ = true;
       error_ = Error{"not a Wavefront OBJ file: unknown statement " + unknown_word_, file_, unknown_line_};
@@ -115,8 +117,12 @@ class Guard : public std::streambuf {
       ++count;
     }
     if (count < least)
-      return fail(std::string(trim(key)) + " needs " + std::to_string(least) + " numbers, found " + std::to_string(count)), true;
-    if (count > most) return fail(std::string(trim(key)) + " takes at most " + std::to_string(most) + " numbers, found " + std::to_string(count)), true;
+      return fail(std::string(trim(key)) + " needs " + std::to_string(least) + " numbers, found " + std::to_string(count)),
+             true;
+    if (count > most)
+      return fail(std::string(trim(key)) + " takes at most " + std::to_string(most) + " numbers, found " +
+                  std::to_string(count)),
+             true;
     current_.append("0 0 0");  // the values are numbers_
     return true;
   }
@@ -145,7 +151,9 @@ class Guard : public std::streambuf {
       int32_t index = 0;
       const bool absent = number.empty() && part > 0;
       if (!absent && (!digits_and_signs(number) || !parse_int(number, &index)))
-        return fail("face corner " + quoted(whole) + " is not of the form v, v/vt, v//vn or v/vt/vn, or its index is too large"), false;
+        return fail("face corner " + quoted(whole) +
+                    " is not of the form v, v/vt, v//vn or v/vt/vn, or its index is too large"),
+               false;
       if (!absent && index == 0) return fail("face corner " + quoted(whole) + " has index 0: OBJ indices start at 1"), false;
       if (slash == std::string_view::npos) return true;
       word.remove_prefix(slash + 1);
@@ -157,10 +165,14 @@ class Guard : public std::streambuf {
     rest = without_comment(rest);
     const std::string_view word = next_word(rest);
     int32_t group = 0;
-    if (word == "off" || word.empty()) smoothing_ = 0;
-    else if (parse_int(word, &group) && group >= 0) smoothing_ = static_cast<uint32_t>(group);
-    else if (word == "on") smoothing_ = 1;
-    else messages_.warn(file_, line(), "smoothing group " + quoted(word) + " is not a number; ignored");
+    if (word == "off" || word.empty())
+      smoothing_ = 0;
+    else if (parse_int(word, &group) && group >= 0)
+      smoothing_ = static_cast<uint32_t>(group);
+    else if (word == "on")
+      smoothing_ = 1;
+    else
+      messages_.warn(file_, line(), "smoothing group " + quoted(word) + " is not a number; ignored");
   }
 
   LineReader lines_;
@@ -217,22 +229,28 @@ struct Builder {
     if (index >= 0) return index - 1;
     const int64_t resolved = static_cast<int64_t>(defined) + index;
     if (resolved < 0)
-      guard.fail(std::string(what) + " index " + std::to_string(index) + " out of range: only " + std::to_string(defined) + " defined so far");
+      guard.fail(std::string(what) + " index " + std::to_string(index) + " out of range: only " + std::to_string(defined) +
+                 " defined so far");
     return static_cast<int32_t>(resolved);
   }
 };
 
 Result<void> check_indices(const ObjMesh& mesh, const std::string& file) {
   const auto out_of_range = [&](const ObjFace& face, const char* what, int32_t index, size_t count) {
-    return Error{std::string(what) + " index " + std::to_string(index + 1) + " out of range: the file has " + std::to_string(count), file, face.line};
+    return Error{
+        std::string(what) + " index " + std::to_string(index + 1) + " out of range: the file has " + std::to_string(count),
+        file, face.line};
   };
   const size_t positions = mesh.positions.size() / 3, uvs = mesh.uvs.size() / 2, normals = mesh.normals.size() / 3;
   for (const ObjFace& face : mesh.faces)
     for (uint32_t i = 0; i < face.corner_count; ++i) {
       const ObjCorner& c = mesh.corners[face.first_corner + i];
-      if (c.position < 0 || static_cast<size_t>(c.position) >= positions) return out_of_range(face, "vertex", c.position, positions);
-      if (c.uv < -1 || (c.uv >= 0 && static_cast<size_t>(c.uv) >= uvs)) return out_of_range(face, "texture coordinate", c.uv, uvs);
-      if (c.normal < -1 || (c.normal >= 0 && static_cast<size_t>(c.normal) >= normals)) return out_of_range(face, "normal", c.normal, normals);
+      if (c.position < 0 || static_cast<size_t>(c.position) >= positions)
+        return out_of_range(face, "vertex", c.position, positions);
+      if (c.uv < -1 || (c.uv >= 0 && static_cast<size_t>(c.uv) >= uvs))
+        return out_of_range(face, "texture coordinate", c.uv, uvs);
+      if (c.normal < -1 || (c.normal >= 0 && static_cast<size_t>(c.normal) >= normals))
+        return out_of_range(face, "normal", c.normal, normals);
     }
   return {};
 }

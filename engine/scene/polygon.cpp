@@ -35,12 +35,16 @@ FlatPolygon flatten(const float* positions, const ObjCorner* corners, uint32_t c
   }
   while (points.size() > 1 && points.front() == points.back()) points.pop_back(), flat.corner.pop_back();
   glm::dvec3 normal(0);  // twice the area vector (Newell)
-  for (size_t i = 0; i < points.size(); ++i) normal += cross3(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
+  for (size_t i = 0; i < points.size(); ++i)
+    normal += cross3(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
   const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
   for (const glm::dvec3& p : points) {
-    if (x >= y && x >= z) flat.point.push_back(normal.x < 0 ? glm::dvec2(p.z, p.y) : glm::dvec2(p.y, p.z));
-    else if (y >= z) flat.point.push_back(normal.y < 0 ? glm::dvec2(p.x, p.z) : glm::dvec2(p.z, p.x));
-    else flat.point.push_back(normal.z < 0 ? glm::dvec2(p.y, p.x) : glm::dvec2(p.x, p.y));
+    if (x >= y && x >= z)
+      flat.point.push_back(normal.x < 0 ? glm::dvec2(p.z, p.y) : glm::dvec2(p.y, p.z));
+    else if (y >= z)
+      flat.point.push_back(normal.y < 0 ? glm::dvec2(p.x, p.z) : glm::dvec2(p.z, p.x));
+    else
+      flat.point.push_back(normal.z < 0 ? glm::dvec2(p.y, p.x) : glm::dvec2(p.x, p.y));
   }
   return flat;
 }

@@ -11,6 +11,8 @@
 namespace spanray {
 namespace {
 
+constexpr size_t kMostVertices = size_t{1} << 27, kMostTriangles = size_t{1} << 28;  // word offsets of gathers stay below 2^31
+
 bool finite3(const float* p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 glm::dvec3 to_dvec(const float* p) { return {p[0], p[1], p[2]}; }
@@ -107,11 +109,11 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
       empty = false;
     }
     scene.triangles.push_back(canonical_triangle(scene.vertices, index, t.material));
+    if (scene.vertices.size() > kMostVertices || scene.triangles.size() > kMostTriangles)
+      return Error{"the scene is too large: at most 2^27 distinct vertices and 2^28 triangles"};
   }
   if (empty)
     for (int k = 0; k < 3; ++k) scene.bounds_min[k] = scene.bounds_max[k] = 0;
-  if (scene.vertices.size() > size_t{1} << 27 || scene.triangles.size() > size_t{1} << 28)
-    return Error{"the scene is too large: at most 2^27 distinct vertices and 2^28 triangles"};
   return report;
 }
 

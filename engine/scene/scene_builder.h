@@ -21,9 +21,9 @@ struct BuildReport {
   uint64_t zero_area = 0;           // kept (they cover no pixel), counted
 };
 
-// Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material) corners
-// into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds. Material
-// indices must be below scene.materials.size(). Errors: too many vertices for 32-bit gathers.
+// Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material)
+// corners into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds.
+// Material indices must be below scene.materials.size(). Errors: too many vertices for 32-bit gathers.
 Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene);
 
 // Computes scene.hash from all that can reach a pixel. Call last.

@@ -13,13 +13,26 @@ namespace {
 constexpr Range kRadiance = {0, 1e12};
 constexpr Range kUnit = {0, 1};
 constexpr double kLeastLength = 1e-12;  // of directions; keeps squares far from underflow
+// toml++ 3.3 limits the nesting of values but not that of dotted keys, and walks both by recursion.
+constexpr int kMostDotsInALine = 1000;
 constexpr const char* kTransparencyWords[] = {"opaque", "mask", "alpha", "screen-door"};  // MaterialTransparency
 
 std::vector<std::string> transparency_words() { return {std::begin(kTransparencyWords), std::end(kTransparencyWords)}; }
 std::vector<std::string> reflectance_words() {
   std::vector<std::string> words;
-  for (int i = 0; i < catalog_count(CatalogKind::kReflectance); ++i) words.emplace_back(catalog_name(CatalogKind::kReflectance, i));
+  for (int i = 0; i < catalog_count(CatalogKind::kReflectance); ++i)
+    words.emplace_back(catalog_name(CatalogKind::kReflectance, i));
   return words;
+}
+
+// The first line with more dots than that; 0 if there is none.
+int line_of_dots(std::string_view text) {
+  int line = 1, dots = 0;
+  for (const char c : text) {
+    if (c == '\n') ++line, dots = 0;
+    if (c == '.' && ++dots > kMostDotsInALine) return line;
+  }
+  return 0;
 }
 
 void read_view(TomlTable& t, Camera& camera, bool* near_given) {
@@ -31,9 +44,12 @@ void read_view(TomlTable& t, Camera& camera, bool* near_given) {
   const glm::dvec3 view(camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1], camera.target[2] - camera.eye[2]);
   const glm::dvec3 direction = normalize3(view, glm::dvec3(0));
   const glm::dvec3 up = normalize3(glm::dvec3(camera.up[0], camera.up[1], camera.up[2]), glm::dvec3(0));
-  if (!(length3(view) > kLeastLength)) t.fail("target", "is where the eye is");
-  else if (up == glm::dvec3(0)) t.fail("up", "has no length");
-  else if (!(length3(cross3(direction, up)) > 1e-9)) t.fail(t.has("up") ? "up" : "target", "gives a view along the up vector");
+  if (!(length3(view) > kLeastLength))
+    t.fail("target", "is where the eye is");
+  else if (up == glm::dvec3(0))
+    t.fail("up", "has no length");
+  else if (!(length3(cross3(direction, up)) > 1e-9))
+    t.fail(t.has("up") ? "up" : "target", "gives a view along the up vector");
 }
 
 NamedCamera read_camera(const toml::table& table, TomlErrors& errors) {
@@ -54,7 +70,8 @@ Light read_light(const toml::table& table, TomlErrors& errors) {
   if (light.kind == static_cast<int32_t>(LightKind::kPoint)) {
     if (t.require("position")) t.vector3("position", kAnyNumber, light.position);
     if (t.has("direction")) t.fail("direction", "is for directional lights");
-    if (t.vector3("attenuation", kRadiance, light.attenuation) && light.attenuation[0] + light.attenuation[1] + light.attenuation[2] == 0)
+    if (t.vector3("attenuation", kRadiance, light.attenuation) &&
+        light.attenuation[0] + light.attenuation[1] + light.attenuation[2] == 0)
       t.fail("attenuation", "must not be zero throughout");
     return light;
   }
@@ -74,7 +91,8 @@ void read_path(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
     CameraKey key{0, scene.cameras.empty() ? Camera() : scene.cameras.front().camera};
     if (t.require("time")) t.number("time", {-1e9, 1e9}, &key.time);
     read_view(t, key.camera, &scene.path_near_given);
-    if (!scene.path.empty() && !(key.time > scene.path.back().time)) t.fail("time", "must be greater than that of the key before");
+    if (!scene.path.empty() && !(key.time > scene.path.back().time))
+      t.fail("time", "must be greater than that of the key before");
     scene.path.push_back(key);
   }
 }
@@ -83,8 +101,10 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   const toml::node* node = root.raw().get("technique");
   if (node == nullptr) return;
   if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
-  TomlTable t(*node->as_table(), "[technique]", {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling",
-                                                "max_bounces", "textures", "bump", "width", "height"}, errors);
+  TomlTable t(*node->as_table(), "[technique]",
+              {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling", "max_bounces",
+               "textures", "bump", "width", "height"},
+              errors);
   t.word("shading", &s.shading);
   t.word("shadows", &s.shadows);
   t.word("reflections", &s.reflections);
@@ -109,16 +129,15 @@ void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
       errors.add(value.source(), "'" + name.substr(0, 60) + "' must be a table, written [material.NAME]");
       continue;
     }
-    TomlTable t(*value.as_table(), "[material." + name.substr(0, 60) + "]", {"transparency", "reflectance", "mirror", "opacity"}, errors);
+    TomlTable t(*value.as_table(), "[material." + name.substr(0, 60) + "]",
+                {"transparency", "reflectance", "mirror", "opacity"}, errors);
     MaterialOverride o;
     o.name = name;
     o.line = static_cast<int>(key.source().begin.line);
     size_t word = 0;
     double opacity = 1;
-    if (t.word("transparency", transparency_words(), &word))
-      o.transparency = static_cast<MaterialTransparency>(word);
-    if (t.word("reflectance", reflectance_words(), &word))
-      o.reflectance = static_cast<int32_t>(word);
+    if (t.word("transparency", transparency_words(), &word)) o.transparency = static_cast<MaterialTransparency>(word);
+    if (t.word("reflectance", reflectance_words(), &word)) o.reflectance = static_cast<int32_t>(word);
     if (t.number("opacity", kUnit, &opacity)) o.opacity = static_cast<float>(opacity);
     o.mirror_given = t.vector3("mirror", kUnit, o.mirror);
     scene.materials.push_back(o);
@@ -128,11 +147,14 @@ void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
 }  // namespace
 
 Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file) {
+  if (const int line = line_of_dots(text); line > 0)
+    return Error{"more than " + std::to_string(kMostDotsInALine) + " dots in one line", file, line};
   const toml::parse_result parsed = toml::parse(text, file);
   if (!parsed)
     return Error{std::string(parsed.error().description()), file, static_cast<int>(parsed.error().source().begin.line)};
   TomlErrors errors(file);
-  TomlTable root(parsed.table(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"}, errors);
+  TomlTable root(parsed.table(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"},
+                 errors);
   SceneFile scene;
   const SceneData defaults;
   std::copy(defaults.background, defaults.background + 3, scene.background);
@@ -146,7 +168,8 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
     scene.lights.emplace();
     for (const toml::table* t : root.tables("light")) scene.lights->push_back(read_light(*t, errors));
     if (scene.lights->size() > static_cast<size_t>(kMaxLights))
-      root.fail("light", "is given " + std::to_string(scene.lights->size()) + " times; at most " + std::to_string(kMaxLights) + " lights");
+      root.fail("light", "is given " + std::to_string(scene.lights->size()) + " times; at most " + std::to_string(kMaxLights) +
+                             " lights");
   }
   read_path(root, scene, errors);
   read_technique(root, scene.settings, errors);
@@ -159,15 +182,19 @@ Result<void> apply_overrides(const SceneFile& scene_file, const std::string& fil
   for (const MaterialOverride& o : scene_file.materials) {
     const auto it = std::find(scene.material_names.begin(), scene.material_names.end(), o.name);
     if (it == scene.material_names.end())
-      return Error{"no material is named '" + o.name.substr(0, 60) + "'" + did_you_mean(o.name, scene.material_names), file, o.line};
+      return Error{"no material is named '" + o.name.substr(0, 60) + "'" + did_you_mean(o.name, scene.material_names), file,
+                   o.line};
     Material& m = scene.materials[static_cast<size_t>(it - scene.material_names.begin())];
     if (o.reflectance) m.reflectance = *o.reflectance;
     if (o.mirror_given) std::copy(o.mirror, o.mirror + 3, m.mirror);
-    const int32_t opaque = static_cast<int32_t>(MaterialTransparency::kOpaque), alpha = static_cast<int32_t>(MaterialTransparency::kAlpha);
+    const int32_t opaque = static_cast<int32_t>(MaterialTransparency::kOpaque),
+                  alpha = static_cast<int32_t>(MaterialTransparency::kAlpha);
     if (o.opacity) {
       m.opacity = *o.opacity;
-      if (m.transparency == opaque && m.opacity < 1) m.transparency = alpha;
-      else if (m.transparency == alpha && m.opacity == 1) m.transparency = opaque;
+      if (m.transparency == opaque && m.opacity < 1)
+        m.transparency = alpha;
+      else if (m.transparency == alpha && m.opacity == 1)
+        m.transparency = opaque;
     }
     if (o.transparency) m.transparency = static_cast<int32_t>(*o.transparency);
   }

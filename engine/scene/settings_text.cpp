@@ -5,8 +5,8 @@
 namespace spanray {
 namespace {
 
-constexpr EnumName<Isa> kIsaNames[] = {{Isa::kAuto, "auto"}, {Isa::kScalar, "scalar"}, {Isa::kSse4, "sse4"},
-                                       {Isa::kAvx2, "avx2"}, {Isa::kAvx512, "avx512"}};
+constexpr EnumName<Isa> kIsaNames[] = {
+    {Isa::kAuto, "auto"}, {Isa::kScalar, "scalar"}, {Isa::kSse4, "sse4"}, {Isa::kAvx2, "avx2"}, {Isa::kAvx512, "avx512"}};
 constexpr EnumName<Shading> kShadingNames[] = {
     {Shading::kFlat, "flat"}, {Shading::kGouraud, "gouraud"}, {Shading::kPhong, "phong"}};
 constexpr EnumName<Shadows> kShadowsNames[] = {{Shadows::kNone, "none"}, {Shadows::kRay, "ray"}};
@@ -39,14 +39,38 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-template <> std::span<const EnumName<Isa>> enum_names<Isa>() { return kIsaNames; }
-template <> std::span<const EnumName<Shading>> enum_names<Shading>() { return kShadingNames; }
-template <> std::span<const EnumName<Shadows>> enum_names<Shadows>() { return kShadowsNames; }
-template <> std::span<const EnumName<Reflections>> enum_names<Reflections>() { return kReflectionsNames; }
-template <> std::span<const EnumName<Visibility>> enum_names<Visibility>() { return kVisibilityNames; }
-template <> std::span<const EnumName<Filter>> enum_names<Filter>() { return kFilterNames; }
-template <> std::span<const EnumName<Transparency>> enum_names<Transparency>() { return kTransparencyNames; }
-template <> std::span<const EnumName<Culling>> enum_names<Culling>() { return kCullingNames; }
+template <>
+std::span<const EnumName<Isa>> enum_names<Isa>() {
+  return kIsaNames;
+}
+template <>
+std::span<const EnumName<Shading>> enum_names<Shading>() {
+  return kShadingNames;
+}
+template <>
+std::span<const EnumName<Shadows>> enum_names<Shadows>() {
+  return kShadowsNames;
+}
+template <>
+std::span<const EnumName<Reflections>> enum_names<Reflections>() {
+  return kReflectionsNames;
+}
+template <>
+std::span<const EnumName<Visibility>> enum_names<Visibility>() {
+  return kVisibilityNames;
+}
+template <>
+std::span<const EnumName<Filter>> enum_names<Filter>() {
+  return kFilterNames;
+}
+template <>
+std::span<const EnumName<Transparency>> enum_names<Transparency>() {
+  return kTransparencyNames;
+}
+template <>
+std::span<const EnumName<Culling>> enum_names<Culling>() {
+  return kCullingNames;
+}
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   if (word.size() > 64) return {};
@@ -61,7 +85,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   }
   if (best.empty() && word.size() >= 2)  // the beginning of a word: "fov" for "fov_y"
     for (const std::string& candidate : known)
-      if (candidate.size() > word.size() && edit_distance(word, std::string_view(candidate).substr(0, word.size())) == 0) return candidate;
+      if (candidate.size() > word.size() && edit_distance(word, std::string_view(candidate).substr(0, word.size())) == 0)
+        return candidate;
   return best;
 }
 

@@ -53,8 +53,8 @@ double corner_angle(const ObjMesh& mesh, const ObjFace& face, uint32_t i) {
 
 // Corners grouped by the bits of their position (-0 as +0): OBJ seams repeat positions under several indices.
 struct Points {
-  std::vector<uint32_t> of_corner;     // point of each corner
-  std::vector<uint32_t> start;         // of each point's corners in `corner`, one more than points
+  std::vector<uint32_t> of_corner;  // point of each corner
+  std::vector<uint32_t> start;      // of each point's corners in `corner`, one more than points
   std::vector<uint32_t> corner;
 };
 
@@ -65,7 +65,8 @@ Points group_by_position(const ObjMesh& mesh) {
   index.reserve(of_position.size());
   for (size_t i = 0; i < of_position.size(); ++i) {
     const float* p = &mesh.positions[3 * i];
-    of_position[i] = index.try_emplace({{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f}}, static_cast<uint32_t>(index.size())).first->second;
+    of_position[i] =
+        index.try_emplace({{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f}}, static_cast<uint32_t>(index.size())).first->second;
   }
   points.of_corner.resize(mesh.corners.size());
   points.start.assign(index.size() + 1, 0);
@@ -116,8 +117,9 @@ void add_missing_normals(ObjMesh& mesh, double cos_crease, const std::string& fi
     mesh.corners[c].normal = append_normal(mesh, normalize3(sum, normalize3(self.face_normal, glm::dvec3(0, 1, 0))));
   }
   if (crowded > 0)
-    messages.warn(file, 0, std::to_string(crowded) + " corners at points shared by more than " + std::to_string(kCrowded) +
-                               " face corners have the face's own normal");
+    messages.warn(file, 0,
+                  std::to_string(crowded) + " corners at points shared by more than " + std::to_string(kCrowded) +
+                      " face corners have the face's own normal");
 }
 
 }  // namespace spanray

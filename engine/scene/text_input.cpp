@@ -11,7 +11,9 @@ namespace {
 
 constexpr size_t kMaxMessages = 200;
 
-struct CloseFile { void operator()(std::FILE* f) const { std::fclose(f); } };
+struct CloseFile {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
 
 // from_chars does not say on which side of the range a number lies: the exponent's sign and the leading zeros do.
 float out_of_range_value(std::string_view digits) {
@@ -20,7 +22,8 @@ float out_of_range_value(std::string_view digits) {
   if (error == std::errc()) return static_cast<float>(wide);
   const size_t exponent = digits.find_first_of("eE");
   const bool has_exponent = exponent != std::string_view::npos && exponent + 1 < digits.size();
-  const bool small = has_exponent ? digits[exponent + 1] == '-' : digits.substr(0, digits.find('.')).find_first_of("123456789") == std::string_view::npos;
+  const bool small = has_exponent ? digits[exponent + 1] == '-'
+                                  : digits.substr(0, digits.find('.')).find_first_of("123456789") == std::string_view::npos;
   return small ? 0.0f : std::numeric_limits<float>::infinity();
 }
 
@@ -37,7 +40,8 @@ Result<std::string> read_text_file(const std::string& path, uint64_t max_bytes) 
   if (!file) return Error{"cannot be opened for reading", path};
   const uint64_t size = fs::file_size(path, error);
   if (error) return Error{"cannot be read", path};
-  if (size > max_bytes) return Error{"is too large: " + std::to_string(size) + " bytes, at most " + std::to_string(max_bytes), path};
+  if (size > max_bytes)
+    return Error{"is too large: " + std::to_string(size) + " bytes, at most " + std::to_string(max_bytes), path};
   std::string text(size, '\0');
   text.resize(std::fread(text.data(), 1, size, file.get()));
   if (text.size() != size) return Error{"cannot be read", path};

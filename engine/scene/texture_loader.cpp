@@ -32,13 +32,17 @@ Texel texel_of(const uint16_t* s, int channels, int bits, bool color) {
 }
 
 // The source texels that one destination texel covers along an axis, with integer weights of sum src.
-struct Tap { int first, count; int64_t weight[3]; };
+struct Tap {
+  int first, count;
+  int64_t weight[3];
+};
 
 Tap tap_of(int j, int src, int dst) {
   Tap tap{};
   const int64_t begin = static_cast<int64_t>(j) * src, end = begin + src;
   tap.first = static_cast<int>(begin / dst);
-  for (int64_t i = tap.first; i * dst < end; ++i) tap.weight[tap.count++] = std::min((i + 1) * dst, end) - std::max(i * dst, begin);
+  for (int64_t i = tap.first; i * dst < end; ++i)
+    tap.weight[tap.count++] = std::min((i + 1) * dst, end) - std::max(i * dst, begin);
   return tap;
 }
 
@@ -67,7 +71,8 @@ void box_filter(const Texel* src, int src_width, int src_height, Texel* dst, int
 
 Result<int32_t> append_texture(const RawImage& image, bool color, SceneData& scene) {
   if (image.width < 1 || image.height < 1 || image.width > kMaxImageSide || image.height > kMaxImageSide)
-    return Error{"image of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels; 1 to 16384 a side"};
+    return Error{"image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                 " pixels; 1 to 16384 a side"};
   const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   if (image.channels < 1 || image.channels > 4 || image.samples.size() != pixels * static_cast<size_t>(image.channels))
     return Error{"damaged image: " + std::to_string(image.samples.size()) + " samples"};
@@ -76,12 +81,14 @@ Result<int32_t> append_texture(const RawImage& image, bool color, SceneData& sce
   texture.height = image.height;
   size_t total = scene.texels.size();
   for (int w = image.width, h = image.height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
-    if (total <= static_cast<size_t>(std::numeric_limits<int32_t>::max())) texture.offset[texture.levels] = static_cast<int32_t>(total);
+    if (total <= static_cast<size_t>(std::numeric_limits<int32_t>::max()))
+      texture.offset[texture.levels] = static_cast<int32_t>(total);
     total += static_cast<size_t>(w) * static_cast<size_t>(h);
     ++texture.levels;
     if (w == 1 && h == 1) break;
   }
-  if (total > static_cast<size_t>(std::numeric_limits<int32_t>::max())) return Error{"too many texels: at most 2^31 - 1 in a scene"};
+  if (total > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
+    return Error{"too many texels: at most 2^31 - 1 in a scene"};
   scene.texels.resize(total);
   Texel* out = scene.texels.data() + texture.offset[0];
   for (size_t i = 0; i < pixels; ++i)
@@ -89,14 +96,16 @@ Result<int32_t> append_texture(const RawImage& image, bool color, SceneData& sce
   int w = image.width, h = image.height;
   for (int level = 1; level < texture.levels; ++level) {
     const int next_w = std::max(1, w / 2), next_h = std::max(1, h / 2);
-    box_filter(scene.texels.data() + texture.offset[level - 1], w, h, scene.texels.data() + texture.offset[level], next_w, next_h);
+    box_filter(scene.texels.data() + texture.offset[level - 1], w, h, scene.texels.data() + texture.offset[level], next_w,
+               next_h);
     w = next_w, h = next_h;
   }
   scene.textures.push_back(texture);
   return static_cast<int32_t>(scene.textures.size() - 1);
 }
 
-TextureLoader::Loaded TextureLoader::load(const std::string& path, bool color, const std::string& mtl_file, const MtlTexture& texture) {
+TextureLoader::Loaded TextureLoader::load(const std::string& path, bool color, const std::string& mtl_file,
+                                          const MtlTexture& texture) {
   const auto [it, is_new] = loaded_.try_emplace({path, color});
   if (!is_new) return it->second;
   const auto unusable = [&](const Error& e) {

@@ -24,7 +24,8 @@ void box_filter(const Texel* src, int src_width, int src_height, Texel* dst, int
 // Loads each file once a kind (color or not), and warns once a file that cannot be used.
 class TextureLoader {
  public:
-  TextureLoader(PathFinder& finder, SceneData& scene, Messages& messages) : finder_(finder), scene_(scene), messages_(messages) {}
+  TextureLoader(PathFinder& finder, SceneData& scene, Messages& messages)
+      : finder_(finder), scene_(scene), messages_(messages) {}
 
   // Index of a new TextureUse, or -1 where the file is missing or broken. Looks in mtl_file's folder, then in obj_folder.
   // A map_d with an alpha channel in its file is read from that channel.

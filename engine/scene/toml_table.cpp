@@ -13,13 +13,20 @@ std::string number_text(double v) {
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "a string";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "a boolean";
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
   }
 }
 
@@ -39,7 +46,8 @@ TomlTable::TomlTable(const toml::table& table, std::string what, const std::vect
     for (const std::string& k : known) is_known = is_known || k == word;
     if (is_known) continue;
     std::string shown = word.size() > 60 ? word.substr(0, 60) + "..." : word;
-    errors_.add(key.source(), "unknown key '" + shown + "'" + (what_.empty() ? "" : " of " + what_) + did_you_mean(word, known));
+    errors_.add(key.source(),
+                "unknown key '" + shown + "'" + (what_.empty() ? "" : " of " + what_) + did_you_mean(word, known));
   }
 }
 
@@ -85,7 +93,8 @@ bool TomlTable::integer(const char* key, int least, int most, int* out) {
   if (!node->is_integer()) return wrong_type(*node, key, "an integer"), false;
   const int64_t value = node->as_integer()->get();
   if (value < least || value > most)
-    return fail(key, "is " + std::to_string(value) + "; it must be " + std::to_string(least) + " to " + std::to_string(most)), false;
+    return fail(key, "is " + std::to_string(value) + "; it must be " + std::to_string(least) + " to " + std::to_string(most)),
+           false;
   *out = static_cast<int>(value);
   return true;
 }
@@ -94,7 +103,8 @@ bool TomlTable::in_range(const toml::node& node, const char* key, Range range, d
   if (!node.is_number()) return wrong_type(node, key, "a number"), false;
   const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   if (!(value >= range.least && value <= range.most)) {
-    errors_.add(node.source(), name(key) + " is " + number_text(value) + "; it must be " + number_text(range.least) + " to " + number_text(range.most));
+    errors_.add(node.source(), name(key) + " is " + number_text(value) + "; it must be " + number_text(range.least) + " to " +
+                                   number_text(range.most));
     return false;
   }
   *out = value;
