@@ -109,7 +109,9 @@ void FrameOptions::add_to(CLI::App& command) {
 }
 
 Result<Job> FrameOptions::load() const {
-  Result<LoadedScene> loaded = load_scene(scene_path_);
+  LoadOptions options;
+  options.viewer = camera_;
+  Result<LoadedScene> loaded = load_scene(scene_path_, options);
   if (!loaded) return loaded.error();
   Job job;
   job.scene = loaded.value().scene;

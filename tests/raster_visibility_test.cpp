@@ -43,6 +43,7 @@ uint32_t accept_checker(const Frame&, uint32_t primitive, int x0, int y, uint32_
 Material material_with(MaterialTransparency transparency) {
   Material m;
   m.transparency = static_cast<int32_t>(transparency);
+  m.opacity = 0.5f;  // what is wholly opaque has nothing to ask accept(hit)
   return m;
 }
 

@@ -65,9 +65,13 @@ struct Parallel::Impl {
 // Without it an arena of 7 gets only as many workers as there are processors. One for the whole process, made once: of several
 // controls the least one would hold, so that pools of different sizes would starve each other. Never destroyed, since the
 // library may be gone before static objects are. It allows threads and makes none.
+static const tbb::global_control* volatile process_limit = nullptr;  // volatile: seen as reachable by leak checkers
 static void allow_more_threads_than_processors() {
-  [[maybe_unused]] static const auto* const control =
-      new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(std::max(1024, processors())));
+  static std::once_flag once;
+  std::call_once(once, [] {
+    process_limit =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(std::max(1024, processors())));
+  });
 }
 
 struct Parallel::Impl {

@@ -29,7 +29,7 @@ std::string place_text(const double p[3]) {
 }
 
 // Adds the camera and light that the files did not give, and says so.
-void complete(SceneData& scene, bool lights_given, const std::string& path, Messages& messages) {
+void complete(SceneData& scene, bool lights_given, const std::string& path, const LoadOptions& options, Messages& messages) {
   if (scene.cameras.empty()) {
     scene.cameras.push_back(fitted_camera(scene));
     scene.camera_names.emplace_back("fitted");
@@ -41,7 +41,7 @@ void complete(SceneData& scene, bool lights_given, const std::string& path, Mess
     if (scene.lights.empty()) messages.note(path + ": the list of lights is empty: only ambient and emitted light");
     return;
   }
-  scene.lights.push_back(default_light(scene, scene.cameras.front()));
+  scene.lights.push_back(default_light(scene, options.viewer.value_or(scene.cameras.front())));
   const float* p = scene.lights.front().position;
   const double position[3] = {p[0], p[1], p[2]};
   messages.note(path + ": no light given; default point light near the eye at " + place_text(position) +
@@ -73,7 +73,7 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   if (Result<void> loaded = load_obj(obj.value(), options, scene, messages); !loaded) return loaded;
   take_scene_file(file.value(), scene);
   if (Result<void> applied = apply_overrides(file.value(), path, scene); !applied) return applied;
-  complete(scene, file.value().lights.has_value(), path, messages);
+  complete(scene, file.value().lights.has_value(), path, options, messages);
   return {};
 }
 
@@ -86,7 +86,7 @@ Result<void> load_any(const std::string& path, const LoadOptions& options, Scene
     return Error{"unknown kind of scene: the name must end in .obj or .toml", path};
   }
   if (Result<void> loaded = load_obj(path, options, scene, messages); !loaded) return loaded;
-  complete(scene, false, path, messages);
+  complete(scene, false, path, options, messages);
   return {};
 }
 

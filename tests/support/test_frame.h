@@ -6,6 +6,7 @@
 
 #include "frame/frame.h"
 #include "frame/primary_rays.h"
+#include "frame/transparency.h"
 #include "scene/scene_builder.h"
 
 namespace spanray {
@@ -25,13 +26,7 @@ inline std::unique_ptr<TestFrame> make_test_frame(SceneData scene, const Camera&
   auto t = std::make_unique<TestFrame>();
   t->scene = std::move(scene);
   t->parallel = std::make_unique<Parallel>(settings.threads > 0 ? settings.threads : 1);
-  for (const Material& m : t->scene.materials) {
-    const auto transparency = static_cast<MaterialTransparency>(m.transparency);
-    uint32_t flags = 0;
-    if (transparency == MaterialTransparency::kMask || transparency == MaterialTransparency::kScreenDoor) flags |= kMaterialMasked;
-    if (transparency == MaterialTransparency::kAlpha) flags |= kMaterialTranslucent;
-    t->material_flags.push_back(flags);
-  }
+  for (const Material& m : t->scene.materials) t->material_flags.push_back(material_flags(m, settings));
   Frame& f = t->frame;
   f.scene = &t->scene;
   f.settings = settings;
