@@ -197,6 +197,7 @@ TEST(RayTrace, CoherentBatchesEqualBruteForceInAnyOrder) {
   TestRandom random(28);
   std::vector<Material> materials(2);
   materials[1].transparency = static_cast<int32_t>(MaterialTransparency::kMask);
+  materials[1].opacity = 0.5f;  // what is wholly opaque has nothing to ask accept(hit)
   add_mesh(soup, make_sphere(2), 0.5, glm::dvec3(0.3, 0, 0), 1);
   add_random_triangles(soup, random, 400, 0.2);
   add_random_triangles(soup, random, 10, 2);
@@ -347,6 +348,7 @@ TEST(RayTrace, MasksAndCullingFilterHits) {
   TestRandom random(27);
   std::vector<Material> materials(2);
   materials[1].transparency = static_cast<int32_t>(MaterialTransparency::kMask);
+  materials[1].opacity = 0.5f;  // what is wholly opaque has nothing to ask accept(hit)
   std::vector<SoupTriangle> soup;
   add_random_triangles(soup, random, 100, 0.8, 0);
   add_random_triangles(soup, random, 200, 0.8, 1);
