@@ -66,6 +66,10 @@ void print(const ImageDifference& d, const Image& a, const Image& b) {
 }
 
 int compare_pictures(const CompareOptions& options) {
+  std::error_code none;
+  for (const std::string& input : {options.a, options.b})
+    if (!options.diff.empty() && std::filesystem::equivalent(options.diff, input, none))
+      throw UsageError("compare: --diff would replace " + input + ", which is compared");
   if (!options.diff.empty())
     if (auto writable = check_writable(options.diff); !writable) return fail(writable.error());
   Result<Image> first = read_png(options.a);

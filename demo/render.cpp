@@ -48,8 +48,16 @@ Result<void> check_outputs(const RenderOptions& options) {
     throw UsageError("render: --stats - and a hash would share standard output; the statistics have `hash` in them");
   if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
     throw UsageError("render: --out writes PNG, so its file must end in .png: " + options.out);
+  for (const std::string& file : files)
+    if (same_place(file, options.frame.scene_path())) throw UsageError("render: " + file + " is the scene itself");
+  // The extensions also keep outputs from replacing what a scene is made of.
+  const auto must_end = [](const char* option, const std::string& file, const char* extension) {
+    if (!file.empty() && file != "-" && std::filesystem::path(file).extension() != extension)
+      throw UsageError(std::string("render: the file of ") + option + " must end in " + extension + ": " + file);
+  };
+  must_end("--stats", options.stats, ".json"), must_end("--ladder", options.ladder, ".json");
+  must_end("--depth", options.depth, ".pfm"), must_end("--radiance", options.radiance, ".pfm");
   for (size_t i = 0; i < files.size(); ++i) {
-    if (same_place(files[i], options.frame.scene_path())) throw UsageError("render: " + files[i] + " is the scene itself");
     for (size_t j = 0; j < i; ++j)
       if (same_place(files[i], files[j]))
         throw UsageError("render: two outputs would be written to " + files[i]);

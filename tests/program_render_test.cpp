@@ -178,7 +178,8 @@ TEST_F(ProgramRender, WhyNamesTheStepsOfEachPixel) {
   expect("36,40", {"material                 0 'floor'", "translucent layer 1 of 1", "material                 2 'glass'", "they let through"});
   expect("58,33", {"material                 3 'red'", "barycentrics", "light 0, point", "irradiance, facing it"});
   expect("90,5", {"background"});
-  // The floor behind the pyramid, which keeps the light of the default lamp from it.
+  // The floor behind the pyramid, which keeps the light of a lamp in front from it.
+  scene_ = folder_.write("lamp.toml", "obj = \"room.obj\"\n[[light]]\nkind = \"point\"\nposition = [0.6, 1.9, 3.0]\nintensity = [9.0, 9.0, 9.0]\n");
   expect("48,32", {"material                 0 'floor'", "nearest on the way", "lit                    0"}, "2.5,3,0,0.7,0,-1.2,40");
 }
 

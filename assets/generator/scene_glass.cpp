@@ -113,9 +113,9 @@ fov_y = 46.0
 
 [[camera]]
 name = "behind"
-eye = [-1.9, 1.35, -1.75]
-target = [0.5, 0.8, 0.3]
-fov_y = 52.0
+eye = [-0.6, 1.6, -2.3]
+target = [0.5, 0.8, 0.6]
+fov_y = 60.0
 
 [[light]]
 kind = "point"

@@ -57,8 +57,8 @@ struct Renderer::Impl {
     if (scene.valid() && &scene.data() == &new_scene.data()) return;
     opaque.reset(), translucent.reset();
     bvh_build_ms = 0;
+    use = find_scene_use(new_scene.data());
     scene = new_scene;
-    use = find_scene_use(scene.data());
   }
 
   // Builds the trees that the plan asks for and that are not there yet.

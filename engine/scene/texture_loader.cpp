@@ -87,8 +87,9 @@ Result<int32_t> append_texture(const RawImage& image, bool color, SceneData& sce
     ++texture.levels;
     if (w == 1 && h == 1) break;
   }
-  if (total > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
-    return Error{"too many texels: at most 2^31 - 1 in a scene"};
+  // Lanes gather a texel as two words, so twice its index must fit 32 bits.
+  if (total > static_cast<size_t>(std::numeric_limits<int32_t>::max() / 2))
+    return Error{"too many texels: at most 2^30 - 1 in a scene"};
   scene.texels.resize(total);
   Texel* out = scene.texels.data() + texture.offset[0];
   for (size_t i = 0; i < pixels; ++i)
