@@ -109,9 +109,7 @@ void FrameOptions::add_to(CLI::App& command) {
 }
 
 Result<Job> FrameOptions::load() const {
-  LoadOptions options;
-  options.viewer = camera_;
-  Result<LoadedScene> loaded = load_scene(scene_path_, options);
+  Result<LoadedScene> loaded = load_scene(scene_path_);
   if (!loaded) return loaded.error();
   Job job;
   job.scene = loaded.value().scene;

@@ -11,6 +11,7 @@
 #include "render/frame_stats.h"
 #include "render/plan.h"
 #include "render/tile.h"
+#include "scene/default_view.h"
 
 namespace spanray {
 namespace {
@@ -106,6 +107,11 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   frame.material_flags = plan.material_flags.data();
   frame.accept_row = accept_row;
   frame.accept_ray = accept_ray;
+  Light eye_light;
+  if (scene.data().light_follows_eye) {
+    eye_light = default_light(scene.data(), camera);
+    frame.eye_light = &eye_light;
+  }
 
   resize_output(settings, request, out);
   if (request.ladder != nullptr) {

@@ -11,6 +11,7 @@
 #include "ray/bvh.h"
 #include "render/check_request.h"
 #include "render/plan.h"
+#include "scene/default_view.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -63,6 +64,7 @@ class Tracer {
   Parallel parallel_;
   Plan plan_;
   Frame frame_;
+  Light eye_light_;
   Bvh opaque_, translucent_;
   std::unique_ptr<LitVertexCache> lit_vertices_;
 };
@@ -79,6 +81,10 @@ Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& setting
   frame_.material_flags = plan_.material_flags.data();
   frame_.accept_row = accept_row;
   frame_.accept_ray = accept_ray;
+  if (scene.data().light_follows_eye) {
+    eye_light_ = default_light(scene.data(), camera);
+    frame_.eye_light = &eye_light_;
+  }
   // Both engines are asked, whatever the plan says; where the plan has no use for a tree, its answer is only shown.
   opaque_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, 0, parallel_);
   translucent_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, kMaterialTranslucent, parallel_);
@@ -141,7 +147,7 @@ void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive)
 LightTrace Tracer::light(const HitBatch& hits, const SurfaceBatch& s, int index, LitVertexCache* cache, Radiance& sum) {
   LightTrace trace;
   trace.light = index;
-  const Light& l = frame_.scene->lights[static_cast<size_t>(index)];
+  const Light& l = light_of(frame_, index);
   const auto vec = [](const float (&v)[3]) { return formula::Vec3<float>{v[0], v[1], v[2]}; };
   const formula::LightLanes<float> lanes = {vec(l.position), vec(l.direction), vec(l.attenuation)};
   const formula::Vec3<float> at = {s.position[0][0], s.position[1][0], s.position[2][0]};

@@ -29,7 +29,7 @@ std::string place_text(const double p[3]) {
 }
 
 // Adds the camera and light that the files did not give, and says so.
-void complete(SceneData& scene, bool lights_given, const std::string& path, const LoadOptions& options, Messages& messages) {
+void complete(SceneData& scene, bool lights_given, const std::string& path, Messages& messages) {
   if (scene.cameras.empty()) {
     scene.cameras.push_back(fitted_camera(scene));
     scene.camera_names.emplace_back("fitted");
@@ -41,11 +41,10 @@ void complete(SceneData& scene, bool lights_given, const std::string& path, cons
     if (scene.lights.empty()) messages.note(path + ": the list of lights is empty: only ambient and emitted light");
     return;
   }
-  scene.lights.push_back(default_light(scene, options.viewer.value_or(scene.cameras.front())));
-  const float* p = scene.lights.front().position;
-  const double position[3] = {p[0], p[1], p[2]};
-  messages.note(path + ": no light given; default point light near the eye at " + place_text(position) +
-                ", without falloff, giving facing white surfaces a radiance of 0.9");
+  scene.lights.push_back(default_light(scene, fitted_camera(scene)));
+  scene.light_follows_eye = true;
+  messages.note(path + ": no light given; a default point light stays near the eye, without falloff, giving facing white "
+                "surfaces a radiance of 0.9");
 }
 
 void take_scene_file(const SceneFile& file, SceneData& scene) {
@@ -73,7 +72,7 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   if (Result<void> loaded = load_obj(obj.value(), options, scene, messages); !loaded) return loaded;
   take_scene_file(file.value(), scene);
   if (Result<void> applied = apply_overrides(file.value(), path, scene); !applied) return applied;
-  complete(scene, file.value().lights.has_value(), path, options, messages);
+  complete(scene, file.value().lights.has_value(), path, messages);
   return {};
 }
 
@@ -86,7 +85,7 @@ Result<void> load_any(const std::string& path, const LoadOptions& options, Scene
     return Error{"unknown kind of scene: the name must end in .obj or .toml", path};
   }
   if (Result<void> loaded = load_obj(path, options, scene, messages); !loaded) return loaded;
-  complete(scene, false, path, options, messages);
+  complete(scene, false, path, messages);
   return {};
 }
 

@@ -126,6 +126,7 @@ void hash_scene(SceneData& scene) {
   hash_vector(hash, scene.textures);
   hash_buffer(hash, scene.texels);
   hash_vector(hash, scene.lights);
+  if (scene.light_follows_eye) hash.add_word(1);
   hash.add(scene.ambient_radiance, sizeof scene.ambient_radiance).add(scene.background, sizeof scene.background);
   scene.hash = hash.value();
 }

@@ -103,6 +103,7 @@ struct SceneData {
   std::vector<std::string> texture_names;
   AlignedBuffer<Texel> texels;
   std::vector<Light> lights;        // at most kMaxLights
+  bool light_follows_eye = false;   // the only light is the default one: each frame has it near its own eye (default_light)
   float ambient_radiance[3] = {0.03f, 0.03f, 0.03f};
   float background[3] = {0.05f, 0.06f, 0.08f};  // radiance of rays that leave the scene, linear
   std::vector<Camera> cameras;      // never empty; the first is the default

@@ -67,7 +67,7 @@ template <class Kind>
 void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
                        const float* corner_light, float* const radiance[3]) {
   const SceneData& scene = *frame.scene;
-  const Light& light = scene.lights[static_cast<size_t>(light_index)];
+  const Light& light = light_of(frame, light_index);
   const LightLanes lanes = broadcast_light(light);
   const bool specular = frame.plan.specular;
   for (int i = 0; i < s.count; i += kLanes) {
@@ -111,7 +111,8 @@ void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch
 
 void light_vertices_entry(const Frame& frame, const uint32_t* vertex, const uint32_t* material, int count, float* values,
                           size_t light_stride) {
-  for (const Light& light : frame.scene->lights) {
+  for (int i = 0; i < static_cast<int>(frame.scene->lights.size()); ++i) {
+    const Light& light = light_of(frame, i);
     switch (light.kind) {
 #define SPANRAY_CATALOG_ENTRY(index, name)                                                    \
   case index: light_vertices<LightKind_##name>(frame, light, vertex, material, count, values); break;
@@ -124,7 +125,7 @@ void light_vertices_entry(const Frame& frame, const uint32_t* vertex, const uint
 
 void shade_light_gouraud_entry(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light,
                                const uint32_t* lit, const float* corner_light, float* const radiance[3]) {
-  switch (frame.scene->lights[static_cast<size_t>(light)].kind) {
+  switch (light_of(frame, light).kind) {
 #define SPANRAY_CATALOG_ENTRY(index, name) \
   case index: return add_light_gouraud<LightKind_##name>(frame, s, hits, light, lit, corner_light, radiance);
 #include "catalog_lights_list.inc"

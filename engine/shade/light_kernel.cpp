@@ -59,7 +59,7 @@ template <class Kind>
 void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
                float* const radiance[3]) {
   const SceneData& scene = *frame.scene;
-  const Light& light = scene.lights[static_cast<size_t>(light_index)];
+  const Light& light = light_of(frame, light_index);
   const LightLanes lanes = broadcast_light(light);
   const bool flat = frame.settings.shading == Shading::kFlat;
   for (int i = 0; i < s.count; i += kLanes) {
@@ -94,7 +94,7 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
 
 void shade_light_kernel(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light, const uint32_t* lit,
                         float* const radiance[3]) {
-  switch (frame.scene->lights[static_cast<size_t>(light)].kind) {
+  switch (light_of(frame, light).kind) {
 #define SPANRAY_CATALOG_ENTRY(index, name) \
   case index: return add_light<LightKind_##name>(frame, s, hits, light, lit, radiance);
 #include "catalog_lights_list.inc"

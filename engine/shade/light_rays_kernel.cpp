@@ -125,7 +125,7 @@ HWY_INLINE V3 mirror_differential(const V3& dd, const V3& n) {
 
 void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light, RayBatch& rays,
                             AlignedBuffer<uint32_t>& surface_of_ray) {
-  const Light& l = frame.scene->lights[static_cast<size_t>(light)];
+  const Light& l = light_of(frame, light);
   switch (l.kind) {
 #define SPANRAY_CATALOG_ENTRY(index, name) \
   case index: return shadow_rays<LightKind_##name>(frame, s, l, rays, surface_of_ray);

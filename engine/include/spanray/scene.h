@@ -2,7 +2,6 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +34,6 @@ class Scene {
 struct LoadOptions {
   double crease_angle_degrees = 60;  // faces meeting at more than this keep a hard edge where the file has no normals
   bool allow_outside = false;        // textures may lie outside the scene's folder
-  // Who will look: a scene that gives no light gets its default light near this camera instead of near its first one.
-  std::optional<Camera> viewer = std::nullopt;
 };
 
 struct LoadedScene {
