@@ -107,9 +107,9 @@ void add_compare(CLI::App& app, Run& run) {
   auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->a, "Picture or ladder")->required();
   command->add_option("B", options->b, "The other one")->required();
-  command->add_option("--diff", options->diff, "Difference picture")->type_name("D.png");
-  command->add_option("--max", options->max, "A channel may differ by this much (0)")->check(CLI::Range(0, 255))->type_name("N");
-  command->add_option("--max-wrong", options->max_wrong, "So many pixels may differ by more (0)")
+  command->add_option("--diff", options->diff, "Write a picture of the differences: dark gray where equal, bright where not")->type_name("D.png");
+  command->add_option("--max", options->max, "Count a pixel as wrong only if a channel differs by more than N of 255; default 0")->check(CLI::Range(0, 255))->type_name("N");
+  command->add_option("--max-wrong", options->max_wrong, "Exit 0 while at most N pixels are wrong; default 0")
       ->check(CLI::Range(0LL, 1LL << 40))->type_name("N");
   command->callback([options, &run] { run = [options] { return compare(*options); }; });
 }

@@ -1,9 +1,10 @@
 #include "frame_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
+#include "core/counted.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
@@ -29,27 +30,42 @@ void parse_size(const std::string& text, Settings& settings) {
   settings.width = width, settings.height = height;
 }
 
-// Seven numbers, or nothing if the text is a name.
-std::optional<Camera> parse_camera(const std::string& text) {
-  if (text.find(',') == std::string::npos) return std::nullopt;
-  double v[7] = {};
-  size_t count = 0;
-  for (size_t start = 0; start <= text.size(); ++count) {
-    const size_t end = std::min(text.find(',', start), text.size());
-    if (count == 7 || !parse_number(std::string_view(text).substr(start, end - start), v[count]))
-      throw CLI::ValidationError("--camera", text + " is neither seven numbers ex,ey,ez,tx,ty,tz,fovy nor a camera's name");
-    start = end + 1;
-  }
-  if (count != 7) throw CLI::ValidationError("--camera", text + " has " + std::to_string(count) + " numbers, not seven");
-  if (!(v[6] > 0 && v[6] < 180)) throw CLI::ValidationError("--camera", "the angle fovy must be above 0 and below 180 degrees");
-  if (v[0] == v[3] && v[1] == v[4] && v[2] == v[5]) throw CLI::ValidationError("--camera", "eye and target are the same point");
-  Camera camera;
-  for (int k = 0; k < 3; ++k) camera.eye[k] = v[k], camera.target[k] = v[k + 3];
-  camera.fov_y_degrees = v[6];
-  return camera;
+// Shortest decimal that reads back as the very same number; independent of the locale.
+std::string number_text(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace
+
+std::optional<CameraNumbers> parse_camera(const std::string& text) {
+  if (text.find(',') == std::string::npos) return std::nullopt;
+  const auto wrong = [](const std::string& what) { return CLI::ValidationError("--camera", what); };
+  CameraNumbers numbers;
+  double (&v)[11] = numbers.value;
+  size_t count = 0;
+  for (size_t start = 0; start <= text.size(); ++count) {
+    const size_t end = std::min(text.find(',', start), text.size());
+    if (count == 11 || !parse_number(std::string_view(text).substr(start, end - start), v[count]))
+      throw wrong(text + " is neither a camera's name nor numbers ex,ey,ez,tx,ty,tz,fovy, with ux,uy,uz and near after them or not");
+    start = end + 1;
+  }
+  if (count != 7 && count != 10 && count != 11) throw wrong(text + " has " + std::to_string(count) + " numbers, not 7, 10 or 11");
+  if (!(v[6] >= kMinFovDegrees && v[6] <= kMaxFovDegrees))
+    throw wrong("the angle fovy must be " + number_text(kMinFovDegrees) + " to " + number_text(kMaxFovDegrees) + " degrees");
+  if (v[0] == v[3] && v[1] == v[4] && v[2] == v[5]) throw wrong("eye and target are the same point");
+  if (count > 7 && v[7] == 0 && v[8] == 0 && v[9] == 0) throw wrong("the up vector ux,uy,uz has no length");
+  if (count > 10 && !(v[10] > 0)) throw wrong("the near plane must lie at a distance above 0");
+  numbers.count = static_cast<int>(count);
+  return numbers;
+}
+
+void CameraNumbers::apply(Camera& camera) const {
+  for (int k = 0; k < 3; ++k) camera.eye[k] = value[k], camera.target[k] = value[k + 3];
+  camera.fov_y_degrees = value[6];
+  for (int k = 0; k < 3 && count > 7; ++k) camera.up[k] = value[k + 7];
+  if (count > 10) camera.near_plane = value[10];
+}
 
 // not_yet: a word of the design that this version lacks; it gets a message of its own.
 template <class E> void FrameOptions::add_word(CLI::App& command, const std::string& name, E Settings::*field,
@@ -92,8 +108,9 @@ void FrameOptions::add_to(CLI::App& command) {
     camera_ = parse_camera(text);
     camera_name_ = camera_ ? "" : text;
   };
-  command.add_option_function<std::string>("--camera", camera, "Eye, target and vertical angle, or a camera's name in the scene")
-      ->type_name("ex,ey,ez,tx,ty,tz,fovy|NAME");
+  command.add_option_function<std::string>("--camera", camera, "A camera's name in the scene, or eye, target, vertical angle, then, if not those of the scene's first camera, "
+                                                   "up vector and near plane")
+      ->type_name("ex,ey,ez,tx,ty,tz,fovy[,ux,uy,uz[,near]]|NAME");
   add_word(command, "--shading", &Settings::shading, "Interpolation of light over a triangle");
   add_word(command, "--shadows", &Settings::shadows, "How shadows are found", "map");
   add_word(command, "--reflections", &Settings::reflections, "How mirrors see", "env");
@@ -106,21 +123,25 @@ void FrameOptions::add_to(CLI::App& command) {
   add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");
   add_word(command, "--isa", &Settings::isa, "Instruction set; changes no pixel");
+  command.add_flag("--strict", strict_, "Warnings of the scene's files (a missing texture, ...) are errors");
 }
 
 Result<Job> FrameOptions::load() const {
-  Result<LoadedScene> loaded = load_scene(scene_path_);
+  LoadOptions options;
+  options.camera_given = camera_.has_value();
+  Result<LoadedScene> loaded = load_scene(scene_path_, options);
   if (!loaded) return loaded.error();
+  if (const uint64_t warnings = loaded.value().warnings; strict_ && warnings > 0) {
+    for (const std::string& text : loaded.value().messages) message(text);
+    return Error{"--strict: " + counted(warnings, "warning", "warnings"), scene_path_};
+  }
   Job job;
   job.scene = loaded.value().scene;
   job.messages = std::move(loaded.value().messages);
   job.settings = job.scene.settings();
   for (const auto& change : changes_) change(job.settings);
   job.camera = job.scene.cameras()[0];
-  if (camera_) {
-    for (int k = 0; k < 3; ++k) job.camera.eye[k] = camera_->eye[k], job.camera.target[k] = camera_->target[k];
-    job.camera.fov_y_degrees = camera_->fov_y_degrees;
-  }
+  if (camera_) camera_->apply(job.camera);
   if (camera_name_.empty()) return job;
   const std::vector<std::string>& names = job.scene.camera_names();
   std::string known;
@@ -135,10 +156,19 @@ Result<Job> FrameOptions::load() const {
                    "; it has " + known);
 }
 
-std::string camera_text(const Camera& camera) {
-  char text[256];
-  std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", camera.eye[0], camera.eye[1], camera.eye[2],
-                camera.target[0], camera.target[1], camera.target[2], camera.fov_y_degrees);
+std::string camera_text(const Camera& c) {
+  std::string text;
+  for (const double value : {c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2], c.fov_y_degrees, c.up[0], c.up[1],
+                             c.up[2], c.near_plane})
+    text += (text.empty() ? "" : ",") + number_text(value);
+  return text;
+}
+
+std::string short_camera_text(const Camera& camera, const Scene& scene) {
+  const Camera& first = scene.cameras()[0];
+  std::string text = camera_text(camera);
+  if (!std::equal(camera.up, camera.up + 3, first.up) || camera.near_plane != first.near_plane) return text;
+  for (int i = 0; i < 4; ++i) text.erase(text.rfind(','));
   return text;
 }
 

@@ -20,6 +20,16 @@ struct Job {
   std::vector<std::string> messages;  // of the loader
 };
 
+// What --camera gives as numbers: ex,ey,ez,tx,ty,tz,fovy, then perhaps ux,uy,uz, then perhaps near.
+struct CameraNumbers {
+  double value[11] = {};
+  int count = 0;  // 7, 10 or 11
+  // Up vector and near plane stay where they are not given.
+  void apply(Camera& camera) const;
+};
+// Nothing if the text is a name. Throws CLI::ValidationError on numbers that are no camera.
+std::optional<CameraNumbers> parse_camera(const std::string& text);
+
 class FrameOptions {
  public:
   // Adds SCENE and all options to a command. *this must live until the program ends.
@@ -36,12 +46,15 @@ class FrameOptions {
   void add_number(CLI::App& command, const std::string& name, int Settings::*field, int low, int high, const std::string& help);
 
   std::string scene_path_, camera_name_;
-  std::optional<Camera> camera_;  // numbers of --camera; up and near plane are the scene's
+  std::optional<CameraNumbers> camera_;  // go over the scene's first camera
+  bool strict_ = false;
   std::vector<std::function<void(Settings&)>> changes_;
 };
 
-// "ex,ey,ez,tx,ty,tz,fovy" with 17 digits, so that --camera gives the very same camera.
+// "ex,ey,ez,tx,ty,tz,fovy,ux,uy,uz,near": --camera makes the very same camera of it.
 std::string camera_text(const Camera& camera);
+// The same without up and near, where they are those of the scene's first camera.
+std::string short_camera_text(const Camera& camera, const Scene& scene);
 
 // Key and value of every setting that can change the picture, in words: for metadata, statistics and messages.
 std::vector<std::pair<std::string, std::string>> settings_words(const Settings& settings);

@@ -51,7 +51,7 @@ bool WalkSession::press(const std::string& key) {
   else {
     if (key == "F12") screenshot();
     if (key == "F1") std::fprintf(stderr, "%s\n", help().c_str());
-    if (key == "P") std::printf("%s\n", camera_text(camera_).c_str()), std::fflush(stdout);
+    if (key == "P") std::printf("%s\n", short_camera_text(camera_, scene_).c_str()), std::fflush(stdout);
     return false;
   }
   return true;

@@ -51,6 +51,26 @@ TEST_F(ProgramRender, SaysWhereThePictureCameFrom) {
     EXPECT_NE(std::string::npos, bytes.find(word)) << word;
 }
 
+TEST_F(ProgramRender, TheRecordedCameraRepeatsThePictureWithUpAndNear) {
+  folder_.write("tilted.toml",
+                "obj = \"room.obj\"\n[[camera]]\nname = \"tilted\"\neye = [0.5, 1.5, 4.5]\ntarget = [0.0, 0.6, 0.1]\nup = [0.3, 1.0, 0.1]\n"
+                "near = 2.5\n[[camera]]\nname = \"other\"\neye = [0.5, 1.5, 4.5]\ntarget = [0.0, 0.6, 0.0]\nfov_y = 50\nnear = 3\n");
+  const auto hash_of = [&](const std::string& camera, const std::string& stats = "s.json") {
+    const Ran ran = run({"render", "tilted.toml", "--size", "64x48", "--hash", "--camera", camera, "--stats", stats});
+    EXPECT_EQ(0, ran.code) << ran.error;
+    return ran.out;
+  };
+  const std::string tilted = hash_of("tilted", "tilted.json"), other = hash_of("other", "other.json");
+  EXPECT_NE(tilted, other);
+  const auto recorded = [&](const char* stats) { return Json::parse(read_text(folder_.file(stats)))["camera"].get<std::string>(); };
+  EXPECT_EQ("0.5,1.5,4.5,0,0.6,0.1,45,0.3,1,0.1,2.5", recorded("tilted.json"));
+  EXPECT_EQ(tilted, hash_of(recorded("tilted.json")));
+  EXPECT_EQ(other, hash_of(recorded("other.json")));
+  EXPECT_EQ(tilted, hash_of("0.5,1.5,4.5,0,0.6,0.1,45")) << "up and near are those of the scene's first camera";
+  EXPECT_NE(tilted, hash_of("0.5,1.5,4.5,0,0.6,0.1,45,0,1,0")) << "up";
+  EXPECT_NE(tilted, hash_of("0.5,1.5,4.5,0,0.6,0.1,45,0.3,1,0.1,4.5")) << "near";
+}
+
 TEST_F(ProgramRender, HashesDoNotDependOnThreadsOrInstructionSets) {
   for (const char* shading : {"flat", "gouraud", "phong"}) {
     const std::string expected = render({"--hash", "--ids-hash", "--shading", shading}).out;

@@ -1,6 +1,9 @@
 // How the program ends and speaks: exit codes, wrong usage, bad input.
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <fstream>
 
 #include "support/program.h"
@@ -69,7 +72,8 @@ TEST_F(ProgramUsage, NumbersAreCheckedBeforeLoading) {
   const std::string missing = "missing.obj";  // would be exit 1
   for (const char* size : {"0x10", "10x0", "-1x5", "10", "10x", "x10", "10x10x10", "1e3x4", "16385x1", "1x16385", "99999999999x1", "10 x10"})
     expect_usage({"render", missing, "--hash", "--size", size}, {"--size", size});
-  for (const char* camera : {"1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,", "1,2,3,4,5,6,0", "1,2,3,4,5,6,180", "1,2,3,1,2,3,40",
+  for (const char* camera : {"1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,", "1,2,3,4,5,6,0", "1,2,3,4,5,6,180", "1,2,3,4,5,6,179.5", "1,2,3,1,2,3,40",
+                             "1,2,3,4,5,6,40,0", "1,2,3,4,5,6,40,0,0,0", "1,2,3,4,5,6,40,0,1,0,0", "1,2,3,4,5,6,40,0,1,0,1,1",
                              "nan,2,3,4,5,6,40", "1,2,inf,4,5,6,40", "1e999,2,3,4,5,6,40"})
     expect_usage({"render", missing, "--hash", "--camera", camera}, {"--camera"});
   expect_usage({"render", missing, "--hash", "--threads", "-1"}, {"--threads"});
@@ -129,6 +133,53 @@ TEST_F(ProgramBadInput, WalkWithoutADisplayNamesRender) {
   const Ran ran = run({"walk", scene_, "--frames", "1"}, {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "ASAN_OPTIONS=detect_leaks=0"});
   EXPECT_EQ(1, ran.code) << ran.error;
   EXPECT_NE(std::string::npos, ran.error.find("spanray render")) << ran.error;
+}
+
+TEST_F(ProgramBadInput, StrictTurnsWarningsIntoErrors) {
+  folder_.write("bare.obj", "usemtl none\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(0, run({"render", "bare.obj", "--size", "8x8", "--hash"}).code);
+  for (const char* command : {"render", "info"}) {
+    std::vector<std::string> arguments = {command, "bare.obj", "--strict"};
+    if (std::string(command) == "render") arguments.insert(arguments.end(), {"--size", "8x8", "--hash"});
+    expect_failure(1, arguments, {"bare.obj:1: warning: material 'none' is not defined", "--strict: 1 warning"});
+  }
+  const Ran notes = run({"render", scene_, "--size", "8x8", "--hash", "--strict"});
+  EXPECT_EQ(0, notes.code) << "a default light or camera is no warning: " << notes.error;
+  EXPECT_NE(std::string::npos, notes.error.find("no light given")) << notes.error;
+}
+
+TEST_F(ProgramBadInput, OutputsGoThroughLinks) {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder_.file("real"));
+  fs::create_symlink("real/a.png", folder_.file("there.png"));
+  ASSERT_EQ(0, ::mkfifo(folder_.file("pipe").c_str(), 0600));
+  const int pipe = ::open(folder_.file("pipe").c_str(), O_RDWR);  // so that the writer need not wait for a reader
+  ASSERT_GE(pipe, 0);
+  fs::create_symlink("pipe", folder_.file("pipe.png"));
+  fs::create_symlink("loop.png", folder_.file("loop.png"));
+  const std::vector<std::string> render = {"render", scene_, "--size", "8x8", "--out"};
+  const auto out = [&](const char* name) {
+    std::vector<std::string> arguments = render;
+    arguments.emplace_back(name);
+    return run(arguments);
+  };
+  for (int i = 0; i < 2; ++i) {  // a link to nothing, then to a file
+    const Ran ran = out("there.png");
+    EXPECT_EQ(0, ran.code) << ran.error;
+    EXPECT_TRUE(fs::is_symlink(folder_.file("there.png")));
+    EXPECT_TRUE(fs::is_regular_file(folder_.file("real/a.png")));
+  }
+  EXPECT_EQ(0, out("pipe.png").code);
+  EXPECT_TRUE(fs::is_symlink(folder_.file("pipe.png")));
+  EXPECT_TRUE(fs::is_fifo(folder_.file("pipe")));
+  const std::string picture = read_text(folder_.file("real/a.png"));
+  std::string piped(picture.size(), '\0');
+  EXPECT_EQ(static_cast<ssize_t>(picture.size()), ::read(pipe, piped.data(), piped.size()));
+  EXPECT_TRUE(picture == piped && !picture.empty());
+  ::close(pipe);
+  EXPECT_EQ(0, out("loop.png").code);
+  EXPECT_TRUE(fs::is_regular_file(folder_.file("loop.png"))) << "a circle points to nothing: it is replaced";
+  EXPECT_EQ(1, std::distance(fs::directory_iterator(folder_.file("real")), fs::directory_iterator())) << "a temporary was left";
 }
 
 TEST_F(ProgramBadInput, AFullDiskIsAnError) {

@@ -17,7 +17,7 @@ constexpr const char* kTwoMaterials = "newmtl red\nKd 1 0 0\nnewmtl glass pane\n
 class SceneFileTest : public ::testing::Test {
  protected:
   SceneFileTest() { folder_.write("a.obj", kTriangleObj), folder_.write("a.mtl", kTwoMaterials); }
-  Loaded load(const std::string& text) { return must_load(folder_.write("s.toml", text)); }
+  Loaded load(const std::string& text, const LoadOptions& options = {}) { return must_load(folder_.write("s.toml", text), options); }
   Error error(const std::string& text) { return must_fail(folder_.write("s.toml", text)); }
   TempFolder folder_;
 };
@@ -97,6 +97,7 @@ opacity = 1
   EXPECT_EQ(s.camera_path[1].time, 1.5);
   EXPECT_EQ(s.camera_path[0].camera.fov_y_degrees, 30.5);  // of the first camera
   EXPECT_EQ(s.camera_path[1].camera.fov_y_degrees, 60.0);
+  EXPECT_EQ(s.camera_path[1].camera.near_plane, 0.25);
   EXPECT_EQ(s.settings.shading, Shading::kGouraud);
   EXPECT_EQ(s.settings.shadows, Shadows::kNone);
   EXPECT_EQ(s.settings.reflections, Reflections::kNone);
@@ -138,7 +139,10 @@ TEST_F(SceneFileTest, EveryMistakeIsNamedWithItsLine) {
       {obj + "[[camera]]\neye = [0,0,5]\n", 2, "'target' of camera is missing"},
       {obj + camera + "fov = 45\n", 5, "did you mean 'fov_y'"},
       {obj + camera + "fov_y = 180\n", 5, "'fov_y' of camera is 180"},
+      {obj + camera + "fov_y = 0.009\n", 5, "'fov_y' of camera is 0.009"},
       {obj + camera + "fov_y = \"wide\"\n", 5, "must be a number"},
+      {obj + camera + "name = \"a\"\n" + camera + "name = \"a\"\n", 9, "'a' is the name of a camera above"},
+      {obj + camera + "name = \"camera 2\"\n" + camera, 6, "'camera 2' is the name of a camera above"},
       {obj + camera + "near = 0\n", 5, "'near'"},
       {obj + camera + "near = -1\n", 5, "'near'"},
       {obj + camera + "up = [0,0,1]\n", 5, "along the up vector"},
@@ -221,6 +225,9 @@ TEST_F(SceneFileTest, WithoutLightOrCameraDefaultsAreChosenAndSaid) {
   EXPECT_EQ(none.count({"list of lights is empty"}), 1);
   const Loaded camera = load("obj = \"A.OBJ\"\n[[camera]]\neye = [0,1,3]\ntarget = [0,1,0]\n");
   EXPECT_EQ(camera.count({"no camera given"}), 0);
+  LoadOptions own;
+  own.camera_given = true;
+  EXPECT_EQ(load("obj = \"a.obj\"\n", own).count({"no camera given"}), 0);
   EXPECT_EQ(camera.count({"no light given"}), 1);
 }
 

@@ -21,7 +21,7 @@ Result<void> check_camera(const Camera& c) {
   // Squares of larger numbers overflow nothing yet, but leave no digits for a picture.
   for (const double x : {c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2]})
     if (std::fabs(x) > 1e18) return out_of_range("camera coordinate", std::to_string(x), "at most 1e18");
-  if (!(c.fov_y_degrees >= 0.01 && c.fov_y_degrees <= 179))
+  if (!(c.fov_y_degrees >= kMinFovDegrees && c.fov_y_degrees <= kMaxFovDegrees))
     return out_of_range("field of view", std::to_string(c.fov_y_degrees), "0.01 to 179 degrees");
   if (!(c.near_plane >= 1e-18 && c.near_plane <= 1e18))
     return out_of_range("near plane", std::to_string(c.near_plane), "1e-18 to 1e18");

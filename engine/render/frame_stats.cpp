@@ -1,5 +1,7 @@
 #include "render/frame_stats.h"
 
+#include "core/counted.h"
+
 namespace spanray {
 
 void resize_output(const Settings& s, const FrameRequest& request, Framebuffer& out) {
@@ -40,7 +42,7 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"rays_translucent", c.rays_translucent},
                   {"vertices_lit", c.vertices_lit}};
   if (c.triangles_invalid > 0)
-    stats.warnings.push_back(std::to_string(c.triangles_invalid) + " triangles were dropped: their projection is not finite");
+    stats.warnings.push_back(counted(c.triangles_invalid, "triangle was", "triangles were") + " dropped: the projection is not finite");
 }
 
 }  // namespace spanray

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "frame/transparency.h"
 
 namespace spanray {
@@ -33,8 +34,8 @@ Wants find_wants(const SceneData& scene, const SceneUse& use, const std::vector<
   return w;
 }
 
-std::string materials_text(int n, const char* what) {
-  return std::to_string(n) + (n == 1 ? " material " : " materials ") + what;
+std::string materials_text(int n, const std::string& what) {
+  return counted(static_cast<uint64_t>(n), "material ", "materials ") + what;
 }
 
 class Lines {
@@ -86,15 +87,15 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                      w.bumped, materials_text(w.bumped, "with a height or normal map"), "no material has one");
   f.ambient = lines.add("ambient", true, "", nonzero(scene.ambient_radiance) ? w.ambient : 0, "the scene has ambient light",
                         "no ambient light, or no material that reflects it");
-  f.emission = lines.add("emission", true, "", w.emissive, materials_text(w.emissive, "that emit"), "no material emits");
-  lines.add("direct light", true, "", lit ? lights : 0, std::to_string(lights) + (lights == 1 ? " light" : " lights"),
+  f.emission = lines.add("emission", true, "", w.emissive, materials_text(w.emissive, w.emissive == 1 ? "that emits" : "that emit"), "no material emits");
+  lines.add("direct light", true, "", lit ? lights : 0, counted(static_cast<uint64_t>(lights), "light", "lights"),
             lights == 0 ? "the scene has no light" : "the scene has no triangle");
   f.specular = lines.add("specular", true, "", lit ? w.specular : 0, materials_text(w.specular, "with a highlight"),
                          "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");
   f.bounces = lines.add("bounce rays", s.reflections == Reflections::kRay && s.max_bounces > 0, "switched off", w.mirror,
-                        materials_text(w.mirror, "mirrored, up to ") + std::to_string(s.max_bounces) + " bounces",
+                        materials_text(w.mirror, "mirrored, up to " + counted(static_cast<uint64_t>(s.max_bounces), "bounce", "bounces")),
                         "no material mirrors");
   f.translucents = lines.add("composite", true, "", w.translucent, materials_text(w.translucent, "blended by alpha"),
                              "no material is translucent");

@@ -29,13 +29,14 @@ std::string place_text(const double p[3]) {
 }
 
 // Adds the camera and light that the files did not give, and says so.
-void complete(SceneData& scene, bool lights_given, const std::string& path, Messages& messages) {
+void complete(SceneData& scene, bool lights_given, const std::string& path, const LoadOptions& options, Messages& messages) {
   if (scene.cameras.empty()) {
     scene.cameras.push_back(fitted_camera(scene));
     scene.camera_names.emplace_back("fitted");
     const Camera& c = scene.cameras.front();
-    messages.note(path + ": no camera given; fitted to the bounds: eye " + place_text(c.eye) + ", target " +
-                  place_text(c.target) + ", 45 degrees");
+    if (!options.camera_given)
+      messages.note(path + ": no camera given; fitted to the bounds: eye " + place_text(c.eye) + ", target " +
+                    place_text(c.target) + ", 45 degrees");
   }
   if (lights_given) {
     if (scene.lights.empty()) messages.note(path + ": the list of lights is empty: only ambient and emitted light");
@@ -55,9 +56,12 @@ void take_scene_file(const SceneFile& file, SceneData& scene) {
   for (const NamedCamera& c : file.cameras) {
     scene.cameras.push_back(c.camera);
     if (!c.near_given) scene.cameras.back().near_plane = near_plane;
-    scene.camera_names.push_back(c.name.empty() ? "camera " + std::to_string(scene.cameras.size()) : c.name);
+    scene.camera_names.push_back(c.name);
   }
   scene.camera_path = file.path;
+  if (!file.path_near_given)
+    for (CameraKey& key : scene.camera_path)
+      key.camera.near_plane = scene.cameras.empty() ? near_plane : scene.cameras.front().near_plane;
 }
 
 Result<void> load_scene_file(const std::string& path, const LoadOptions& options, SceneData& scene, Messages& messages) {
@@ -72,7 +76,7 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   if (Result<void> loaded = load_obj(obj.value(), options, scene, messages); !loaded) return loaded;
   take_scene_file(file.value(), scene);
   if (Result<void> applied = apply_overrides(file.value(), path, scene); !applied) return applied;
-  complete(scene, file.value().lights.has_value(), path, messages);
+  complete(scene, file.value().lights.has_value(), path, options, messages);
   return {};
 }
 
@@ -85,7 +89,7 @@ Result<void> load_any(const std::string& path, const LoadOptions& options, Scene
     return Error{"unknown kind of scene: the name must end in .obj or .toml", path};
   }
   if (Result<void> loaded = load_obj(path, options, scene, messages); !loaded) return loaded;
-  complete(scene, false, path, messages);
+  complete(scene, false, path, options, messages);
   return {};
 }
 
@@ -108,7 +112,8 @@ Result<LoadedScene> load_scene(const std::string& path, const LoadOptions& optio
     Messages messages;
     if (const Result<void> loaded = load_any(path, options, *scene, messages); !loaded) return loaded.error();
     hash_scene(*scene);
-    return LoadedScene{Scene(scene), messages.take()};
+    const uint64_t warnings = messages.warnings();
+    return LoadedScene{Scene(scene), messages.take(), warnings};
   } catch (const std::bad_alloc&) {
     return Error{"not enough memory for this scene", path};
   } catch (const std::exception& e) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/counted.h"
+
 namespace spanray {
 namespace {
 
@@ -36,7 +38,8 @@ class MtlReader {
     for (std::string_view line; lines_.next(&line);) statement(line);
     if (unknown_ > 0)
       messages_.warn(file_, unknown_line_,
-                     std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
+                     counted(unknown_, "line with an unknown statement", "lines with unknown statements") +
+                         " ignored, first " + unknown_word_);
     return std::move(materials_);
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/counted.h"
 #include "math/elementary.h"
 #include "scene/mtl_library.h"
 #include "scene/obj_mesh.h"
@@ -72,7 +73,7 @@ class MaterialLoader {
   void file(const std::string& path) {
     if (!read_.try_emplace(path, true).second) return;
     const Result<std::string> text = read_text_file(path, kMostMtlBytes);
-    if (!text) return messages_.note(Error{"warning: material library: " + text.error().message, path}.to_string());
+    if (!text) return messages_.warn(path, 0, "material library: " + text.error().message);
     for (const MtlMaterial& mtl : read_mtl(text.value(), path, messages_)) add(mtl, path);
   }
 
@@ -152,13 +153,13 @@ Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_use
 }
 
 void report(const BuildReport& r, int not_finite_line, const std::string& file, Messages& messages) {
-  const auto say = [&](uint64_t count, int line, const char* what) {
-    if (count > 0) messages.warn(file, line, std::to_string(count) + what);
+  const auto say = [&](uint64_t count, int line, const char* one, const char* many, const std::string& what) {
+    if (count > 0) messages.warn(file, line, counted(count, one, many) + what);
   };
-  say(r.dropped_not_finite, not_finite_line, " triangles dropped: a vertex is NaN or infinite");
-  say(r.repaired_normals, 0, " corners with a zero or non-finite normal have the face's normal");
-  say(r.repaired_uvs, 0, " corners with non-finite texture coordinates have (0, 0)");
-  say(r.zero_area, 0, " triangles have no area");
+  say(r.dropped_not_finite, not_finite_line, "triangle", "triangles", " dropped: a vertex is NaN or infinite");
+  say(r.repaired_normals, 0, "corner", "corners", " with a zero or non-finite normal: the face's normal is taken");
+  say(r.repaired_uvs, 0, "corner", "corners", " with non-finite texture coordinates: (0, 0) is taken");
+  say(r.zero_area, 0, "triangle has", "triangles have", " no area");
 }
 
 }  // namespace

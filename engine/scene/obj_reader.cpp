@@ -12,6 +12,8 @@
 #include <streambuf>
 #include <unordered_map>
 
+#include "core/counted.h"
+
 // This translation unit is the only one that knows tinyobjloader.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -58,13 +60,14 @@ class Guard : public std::streambuf {
   void finish() {
     if (unknown_ > 0 && statements_ > 0)
       messages_.warn(file_, unknown_line_,
-                     std::to_string(unknown_) + " lines with unknown statements ignored, first " + unknown_word_);
+                     counted(unknown_, "line with an unknown statement", "lines with unknown statements") +
+                         " ignored, first " + unknown_word_);
     if (unknown_ > 0 && statements_ == 0 && !failed_) {
       failed_ = true;
       error_ = Error{"not a Wavefront OBJ file: unknown statement " + unknown_word_, file_, unknown_line_};
     }
     if (short_faces_ > 0)
-      messages_.warn(file_, short_line_, std::to_string(short_faces_) + " faces with fewer than 3 corners ignored");
+      messages_.warn(file_, short_line_, counted(short_faces_, "face", "faces") + " with fewer than 3 corners ignored");
   }
 
  protected:

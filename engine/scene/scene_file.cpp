@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "catalog/catalog.h"
 #include "math/vec.h"
@@ -39,7 +40,7 @@ void read_view(TomlTable& t, Camera& camera, bool* near_given) {
   if (t.require("eye")) t.vector3("eye", kAnyNumber, camera.eye);
   if (t.require("target")) t.vector3("target", kAnyNumber, camera.target);
   t.vector3("up", kAnyNumber, camera.up);
-  t.number("fov_y", {0.001, 179.999}, &camera.fov_y_degrees);
+  t.number("fov_y", {kMinFovDegrees, kMaxFovDegrees}, &camera.fov_y_degrees);
   if (t.number("near", {1e-12, 1e12}, &camera.near_plane)) *near_given = true;
   const glm::dvec3 view(camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1], camera.target[2] - camera.eye[2]);
   const glm::dvec3 direction = normalize3(view, glm::dvec3(0));
@@ -52,10 +53,14 @@ void read_view(TomlTable& t, Camera& camera, bool* near_given) {
     t.fail(t.has("up") ? "up" : "target", "gives a view along the up vector");
 }
 
-NamedCamera read_camera(const toml::table& table, TomlErrors& errors) {
+// names: of the cameras above it.
+NamedCamera read_camera(const toml::table& table, std::set<std::string>& names, TomlErrors& errors) {
   TomlTable t(table, "camera", {"name", "eye", "target", "up", "fov_y", "near"}, errors);
   NamedCamera camera;
   t.text("name", &camera.name);
+  if (camera.name.empty()) camera.name = "camera " + std::to_string(names.size() + 1);
+  if (!names.insert(camera.name).second)
+    t.fail("name", "'" + camera.name.substr(0, 60) + "' is the name of a camera above, too");
   read_view(t, camera.camera, &camera.near_given);
   return camera;
 }
@@ -163,7 +168,8 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   scene.obj_line = root.line_of("obj");
   root.vector3("background", kRadiance, scene.background);
   root.vector3("ambient", kRadiance, scene.ambient);
-  for (const toml::table* t : root.tables("camera")) scene.cameras.push_back(read_camera(*t, errors));
+  std::set<std::string> camera_names;
+  for (const toml::table* t : root.tables("camera")) scene.cameras.push_back(read_camera(*t, camera_names, errors));
   if (root.has("light")) {
     scene.lights.emplace();
     for (const toml::table* t : root.tables("light")) scene.lights->push_back(read_light(*t, errors));

@@ -12,7 +12,7 @@
 namespace spanray {
 
 struct NamedCamera {
-  std::string name;
+  std::string name;  // "camera N" where the file gives none; no two are equal
   Camera camera;
   bool near_given = false;
 };

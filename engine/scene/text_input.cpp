@@ -140,6 +140,7 @@ bool LineReader::next(std::string_view* line) {
 }
 
 void Messages::warn(const std::string& file, int line, const std::string& text) {
+  ++warnings_;
   note(Error{"warning: " + text, file, line}.to_string());
 }
 void Messages::note(const std::string& text) {

@@ -50,9 +50,11 @@ class Messages {
   void warn(const std::string& file, int line, const std::string& text);
   void note(const std::string& text);
   std::vector<std::string> take();
+  uint64_t warnings() const { return warnings_; }  // how often warn() was called
 
  private:
   std::vector<std::string> lines_;
+  uint64_t warnings_ = 0;
   uint64_t left_out_ = 0;
 };
 

@@ -34,11 +34,13 @@ class Scene {
 struct LoadOptions {
   double crease_angle_degrees = 60;  // faces meeting at more than this keep a hard edge where the file has no normals
   bool allow_outside = false;        // textures may lie outside the scene's folder
+  bool camera_given = false;         // the caller has a camera of its own: that the files give none is not worth a message
 };
 
 struct LoadedScene {
   Scene scene;
   std::vector<std::string> messages;  // warnings with file and line, and what was chosen for lack of better (default light, ...)
+  uint64_t warnings = 0;              // how many warnings there were, those of a flood that was cut short included
 };
 
 // .obj or .toml, by extension. Errors name file, line and cause.
