@@ -9,7 +9,9 @@
 namespace spanray {
 namespace {
 
-constexpr int kMaxScans = 1000;  // a progressive bomb repeats scans over a large picture for ever
+constexpr int kMaxScans = 100;  // encoders make about 10; a progressive bomb repeats scans over a large picture for ever
+// A block of 8 x 8 samples takes a bit or more, and covers at most 4 x 4 times as many pixels.
+constexpr uint64_t kMostPixelsAByte = 8 * 64 * 16;
 
 // Everything that must outlive a longjmp: no C++ object lives in a frame that libjpeg jumps over.
 struct JpegReader {
@@ -93,6 +95,9 @@ Result<RawImage> decode_jpeg(std::string_view bytes) {
   if (width > kMaxImageSide || height > kMaxImageSide)
     return Error{"JPEG: " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
                  std::to_string(kMaxImageSide) + " a side are allowed"};
+  if (uint64_t{width} * height > bytes.size() * kMostPixelsAByte)
+    return Error{"JPEG: the file is truncated: " + std::to_string(bytes.size()) + " bytes cannot hold " + std::to_string(width) +
+                 " x " + std::to_string(height) + " pixels"};
   if (reader.jpeg.num_components != 1 && reader.jpeg.num_components != 3)
     return Error{"JPEG: " + std::to_string(reader.jpeg.num_components) + " color components (CMYK?) are not supported"};
   if (!start(reader)) return jpeg_failure(reader);

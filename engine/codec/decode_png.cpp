@@ -9,6 +9,9 @@
 namespace spanray {
 namespace {
 
+// Deflate never packs more than this: so many bytes a byte.
+constexpr uint64_t kMostInflation = 1032;
+
 // Everything that must outlive a longjmp: no C++ object lives in a frame that libpng jumps over.
 struct PngReader {
   png_structp png = nullptr;
@@ -38,15 +41,33 @@ void read_bytes(png_structp png, png_bytep out, size_t count) {
   reader->position += count;
 }
 
-// Reads up to the first pixel and asks for 8- or 16-bit gray, gray + alpha, RGB or RGBA.
+// Reads up to the first pixel.
 bool read_header(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
-  png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);  // decode_png checks, with a clearer message
+  png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);  // check_size says it more clearly
   // Color management and text are ignored, so that damage or bombs in them cannot matter.
   static const png_byte kIgnored[] = "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0sTER\0tEXt\0tIME\0zTXt";
   png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, kIgnored, sizeof kIgnored / 5);
   png_set_read_fn(reader.png, &reader, read_bytes);
   png_read_info(reader.png, reader.info);
+  return true;
+}
+
+// Before libpng makes room for rows.
+Result<void> check_size(const PngReader& reader) {
+  const uint64_t width = png_get_image_width(reader.png, reader.info), height = png_get_image_height(reader.png, reader.info);
+  const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  if (width > kMaxImageSide || height > kMaxImageSide)
+    return Error{"PNG: " + size + ", at most " + std::to_string(kMaxImageSide) + " a side are allowed"};
+  // A file of a hundred bytes may claim gigabytes: those are not touched.
+  if (png_get_rowbytes(reader.png, reader.info) * height / kMostInflation > reader.bytes.size())
+    return Error{"PNG: the file is truncated: " + std::to_string(reader.bytes.size()) + " bytes cannot hold " + size};
+  return {};
+}
+
+// Asks for 8- or 16-bit gray, gray + alpha, RGB or RGBA.
+bool start(PngReader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_expand(reader.png);
   if (std::endian::native == std::endian::little) png_set_swap(reader.png);
   reader.passes = png_set_interlace_handling(reader.png);
@@ -110,13 +131,12 @@ Result<RawImage> decode_png(std::string_view bytes) {
   if (reader.info == nullptr) return Error{"PNG: not enough memory"};
   if (!read_header(reader)) return png_failure(reader);
 
-  const png_uint_32 width = png_get_image_width(reader.png, reader.info), height = png_get_image_height(reader.png, reader.info);
-  if (width > kMaxImageSide || height > kMaxImageSide)
-    return Error{"PNG: " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
-                 std::to_string(kMaxImageSide) + " a side are allowed"};
+  if (const Result<void> sized = check_size(reader); !sized) return sized.error();
+  if (!start(reader)) return png_failure(reader);
+
   RawImage image;
-  image.width = static_cast<int>(width);
-  image.height = static_cast<int>(height);
+  image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
+  image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   image.channels = png_get_channels(reader.png, reader.info);
   image.bits = png_get_bit_depth(reader.png, reader.info);
   const size_t row_samples = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "core/read_file.h"
 #include "frame/tiles.h"
 #include "spanray/stats.h"
 
@@ -186,11 +184,9 @@ std::string read_primitives(const Json& in, const TileGrid& grid, std::vector<ui
 }  // namespace
 
 Result<Ladder> Ladder::read_json(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return Error{"cannot read: it is a folder", path};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{"cannot read: no such file, or no permission", path};
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  const std::string& text = bytes.value();
   Json in;
   try {
     in = Json::parse(text);
@@ -198,6 +194,8 @@ Result<Ladder> Ladder::read_json(const std::string& path) {
     const size_t end = std::min(e.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     return Error{"not a JSON file: it cannot be parsed", path, static_cast<int>(line)};
+  } catch (const Json::exception&) {
+    return Error{"not a JSON file: a number in it is out of range", path};
   }
   const auto wrong = [&](const std::string& what) { return Error{"not a hash ladder: " + what, path}; };
   const int contract = int_field(in, "numeric_contract");

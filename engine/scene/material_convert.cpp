@@ -26,7 +26,7 @@ class Converter {
   }
 
  private:
-  void warn(int line, const std::string& text) { messages_.warn(file_, line, "material '" + mtl_.name + "': " + text); }
+  void warn(int line, const std::string& text) { messages_.warn(file_, line, "material " + quoted(mtl_.name) + ": " + text); }
 
   float clamped(float value, float least, float most, int line, const char* name) {
     if (value >= least && value <= most) return value;
@@ -90,6 +90,9 @@ class Converter {
     if (m.illum == 1) std::fill(m.specular, m.specular + 3, 0.0f);
     if (m.illum == 3 || m.illum == 5 || m.illum == 8) std::copy(m.specular, m.specular + 3, m.mirror);
     for (float& c : m.mirror) c = std::min(c, 1.0f);  // throughput never grows along a mirror path (HARD-CASES Y12)
+    const bool glass = m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+    if (glass && m.opacity == 1 && mtl_[MtlMap::kD].line == 0)
+      warn(n.line, "illum " + number_text(value) + " is glass, but no d below 1 and no map_d let light through; opaque");
     if (m.illum == 10) warn(n.line, "illum 10 (shadow catcher) is not supported; 2 taken"), m.illum = 2;
   }
 

@@ -118,17 +118,17 @@ Vertex vertex_of(const ObjMesh& mesh, const ObjCorner& c) {
   return v;
 }
 
-bool has_finite_positions(const ObjMesh& mesh, const ObjFace& face) {
+bool has_usable_positions(const ObjMesh& mesh, const ObjFace& face) {
   for (uint32_t i = 0; i < face.corner_count; ++i) {
     const float* p = &mesh.positions[3 * static_cast<size_t>(mesh.corners[face.first_corner + i].position)];
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return false;
+    if (!usable_position(p)) return false;
   }
   return true;
 }
 
 struct Soup {
   std::vector<SoupTriangle> triangles;
-  int first_not_finite_line = 0;
+  int first_unusable_line = 0;
 };
 
 Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::string& file,
@@ -138,7 +138,7 @@ Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_use
   int64_t budget = kTriangulationBudget;
   std::vector<uint32_t> corners;
   for (const ObjFace& face : mesh.faces) {
-    if (soup.first_not_finite_line == 0 && !has_finite_positions(mesh, face)) soup.first_not_finite_line = face.line;
+    if (soup.first_unusable_line == 0 && !has_usable_positions(mesh, face)) soup.first_unusable_line = face.line;
     corners.clear();
     triangulate(mesh.positions.data(), &mesh.corners[face.first_corner], face.corner_count, budget, corners);
     for (size_t i = 0; i + 2 < corners.size(); i += 3) {
@@ -152,11 +152,11 @@ Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_use
   return soup;
 }
 
-void report(const BuildReport& r, int not_finite_line, const std::string& file, Messages& messages) {
+void report(const BuildReport& r, int unusable_line, const std::string& file, Messages& messages) {
   const auto say = [&](uint64_t count, int line, const char* one, const char* many, const std::string& what) {
     if (count > 0) messages.warn(file, line, counted(count, one, many) + what);
   };
-  say(r.dropped_not_finite, not_finite_line, "triangle", "triangles", " dropped: a vertex is NaN or infinite");
+  say(r.dropped_unusable, unusable_line, "triangle", "triangles", " dropped: a vertex is NaN, infinite or farther out than 1e30");
   say(r.repaired_normals, 0, "corner", "corners", " with a zero or non-finite normal: the face's normal is taken");
   say(r.repaired_uvs, 0, "corner", "corners", " with non-finite texture coordinates: (0, 0) is taken");
   say(r.zero_area, 0, "triangle has", "triangles have", " no area");
@@ -189,7 +189,7 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
   const Soup soup = make_soup(mesh, material_of_used, path, messages);
   const Result<BuildReport> built = build_geometry(soup.triangles, scene);
   if (!built) return Error{built.error().message, path};
-  report(built.value(), soup.first_not_finite_line, path, messages);
+  report(built.value(), soup.first_unusable_line, path, messages);
   if (scene.triangles.empty()) messages.warn(path, 0, "no triangles: the picture will show the background only");
   return {};
 }

@@ -37,8 +37,8 @@ bool position_less(const Vertex& a, const Vertex& b) {
 // Makes the corners of one triangle fit to be vertices; false if the triangle must be dropped.
 bool repair_corners(SoupTriangle& t, BuildReport& report) {
   for (const Vertex& v : t.corner)
-    if (!finite3(v.position)) {
-      ++report.dropped_not_finite;
+    if (!usable_position(v.position)) {
+      ++report.dropped_unusable;
       return false;
     }
   const glm::dvec3 p0 = to_dvec(t.corner[0].position);

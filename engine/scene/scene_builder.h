@@ -14,8 +14,17 @@ struct SoupTriangle {
   uint32_t material = 0;
 };
 
+// Positions that scenes can hold: finite, each coordinate at most 1e30 like those of cameras, so that what is derived from
+// them (bounds, the default light) is finite too.
+inline bool usable_position(const float* p) {
+  constexpr float kMostCoordinate = 1e30f;
+  for (int k = 0; k < 3; ++k)
+    if (!(p[k] >= -kMostCoordinate && p[k] <= kMostCoordinate)) return false;
+  return true;
+}
+
 struct BuildReport {
-  uint64_t dropped_not_finite = 0;  // triangles with a NaN or infinite position
+  uint64_t dropped_unusable = 0;    // triangles with a position that is not usable
   uint64_t repaired_normals = 0;    // corners whose normal was zero or not finite: the face normal took its place
   uint64_t repaired_uvs = 0;        // corners whose uv was not finite: set to 0
   uint64_t zero_area = 0;           // kept (they cover no pixel), counted

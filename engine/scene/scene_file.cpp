@@ -131,10 +131,11 @@ void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
   for (auto&& [key, value] : *node->as_table()) {
     const std::string name(key.str());
     if (!value.is_table()) {
-      errors.add(value.source(), "'" + name.substr(0, 60) + "' must be a table, written [material.NAME]");
+      errors.add(value.source(), quoted(name) + " must be a table, written [material.NAME]");
       continue;
     }
-    TomlTable t(*value.as_table(), "[material." + name.substr(0, 60) + "]",
+    const std::string shown = quoted(name).substr(1, quoted(name).size() - 2);
+    TomlTable t(*value.as_table(), "[material." + shown + "]",
                 {"transparency", "reflectance", "mirror", "opacity"}, errors);
     MaterialOverride o;
     o.name = name;
@@ -188,7 +189,7 @@ Result<void> apply_overrides(const SceneFile& scene_file, const std::string& fil
   for (const MaterialOverride& o : scene_file.materials) {
     const auto it = std::find(scene.material_names.begin(), scene.material_names.end(), o.name);
     if (it == scene.material_names.end())
-      return Error{"no material is named '" + o.name.substr(0, 60) + "'" + did_you_mean(o.name, scene.material_names), file,
+      return Error{"no material is named " + quoted(o.name) + did_you_mean(o.name, scene.material_names), file,
                    o.line};
     Material& m = scene.materials[static_cast<size_t>(it - scene.material_names.begin())];
     if (o.reflectance) m.reflectance = *o.reflectance;

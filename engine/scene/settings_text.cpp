@@ -91,7 +91,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(word, known);
+  std::string near = nearest_word(word, known);
+  for (char& c : near)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';  // names from files reach the terminal
   return near.empty() ? std::string() : " (did you mean '" + near + "'?)";
 }
 

@@ -46,6 +46,7 @@ Result<std::string> read_text_file(const std::string& path, uint64_t max_bytes) 
   text.resize(std::fread(text.data(), 1, size, file.get()));
   if (text.size() != size) return Error{"cannot be read", path};
   if (text.empty()) return Error{"the file is empty", path};
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return Error{"is UTF-16 text: save it as UTF-8", path, 1};
   return text;
 }
 
@@ -79,6 +80,7 @@ bool parse_float(std::string_view word, float* out) {
   const bool negative = word.front() == '-';
   if (negative || word.front() == '+') word.remove_prefix(1);
   if (word.empty() || word.front() == '-' || word.front() == '+') return false;
+  if (word.back() == ')') return false;  // "nan(7)" is for machines
   float value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::invalid_argument || end != word.data() + word.size()) return false;
@@ -88,9 +90,8 @@ bool parse_float(std::string_view word, float* out) {
 }
 
 bool parse_int(std::string_view word, int32_t* out) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   const bool negative = !word.empty() && word.front() == '-';
-  if (negative) word.remove_prefix(1);
+  if (negative || (!word.empty() && word.front() == '+')) word.remove_prefix(1);
   if (word.empty() || word.size() > 9) return false;
   int32_t value = 0;
   for (const char c : word) {

@@ -9,7 +9,8 @@
 
 namespace spanray {
 
-// The bytes of a regular file. Errors: missing, a directory, not regular, unreadable, empty, larger than max_bytes.
+// The bytes of a regular file. Errors: missing, a directory, not regular, unreadable, empty, larger than
+// max_bytes, UTF-16 (by its byte order mark).
 Result<std::string> read_text_file(const std::string& path, uint64_t max_bytes);
 
 inline bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }

@@ -45,9 +45,8 @@ TomlTable::TomlTable(const toml::table& table, std::string what, const std::vect
     bool is_known = false;
     for (const std::string& k : known) is_known = is_known || k == word;
     if (is_known) continue;
-    std::string shown = word.size() > 60 ? word.substr(0, 60) + "..." : word;
     errors_.add(key.source(),
-                "unknown key '" + shown + "'" + (what_.empty() ? "" : " of " + what_) + did_you_mean(word, known));
+                "unknown key " + quoted(word) + (what_.empty() ? "" : " of " + what_) + did_you_mean(word, known));
   }
 }
 
@@ -132,7 +131,7 @@ bool TomlTable::word(const char* key, const std::vector<std::string>& words, siz
   if (!text(key, &value)) return false;
   for (size_t i = 0; i < words.size(); ++i)
     if (words[i] == value) return *out = i, true;
-  fail(key, "is '" + value.substr(0, 60) + "'; it must be one of " + list_of(words) + did_you_mean(value, words));
+  fail(key, "is " + quoted(value) + "; it must be one of " + list_of(words) + did_you_mean(value, words));
   return false;
 }
 
