@@ -1,0 +1,30 @@
+// Clocks and medians.
+#pragma once
+#include <algorithm>
+#include <vector>
+
+namespace spanray::peers {
+
+double wall_ms();
+double cpu_ms();  // of all threads of this process
+
+// Milliseconds from making to stop(), by both clocks.
+class Stopwatch {
+ public:
+  Stopwatch() : wall_(wall_ms()), cpu_(cpu_ms()) {}
+  double wall() const { return wall_ms() - wall_; }
+  double cpu() const { return cpu_ms() - cpu_; }
+
+ private:
+  double wall_, cpu_;
+};
+
+// 0 for an empty list.
+inline double median(std::vector<double> v) {
+  if (v.empty()) return 0;
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+}  // namespace spanray::peers
