@@ -1,82 +1,10 @@
 // Closest, any and all against brute force, for whatever tree and instruction set (HARD-CASES Y4, Y5, Y8, Y9, Y10).
 #include <gtest/gtest.h>
 
-#include "ray/bvh.h"
-#include "support/bvh_oracle.h"
+#include "support/ray_answers.h"
 
 namespace spanray {
 namespace {
-
-std::unique_ptr<TestFrame> frame_of(const std::vector<SoupTriangle>& soup, std::vector<Material> materials = {}) {
-  return make_test_frame(make_test_scene(soup, std::move(materials)), Camera(), test_settings(16, 16));
-}
-
-struct Answers {
-  std::vector<uint32_t> closest;
-  std::vector<bool> any;
-  std::vector<std::vector<uint32_t>> all;  // ascending
-  bool operator==(const Answers&) const = default;
-};
-
-Answers trace(TestFrame& t, const Bvh& bvh, const RayBatch& rays, Isa isa) {
-  t.frame.isa = isa;
-  const size_t n = static_cast<size_t>(rays.count);
-  Answers a;
-  a.closest.resize(n), a.all.resize(n);
-  std::vector<uint32_t> bits(n / 32 + 1, 0xdeadbeef);
-  trace_closest(t.frame, bvh, rays, a.closest.data());
-  trace_any(t.frame, bvh, rays, bits.data());
-  FragmentList list;
-  trace_all(t.frame, bvh, rays, list);
-  for (size_t i = 0; i < n; ++i) a.any.push_back(bits[i / 32] >> (i % 32) & 1);
-  for (size_t i = 0; i < list.ray.size(); ++i) {
-    EXPECT_EQ(list.pixel[i], rays.pixel[list.ray[i]]);
-    a.all[list.ray[i]].push_back(list.primitive[i]);
-  }
-  for (auto& hits : a.all) std::sort(hits.begin(), hits.end());
-  return a;
-}
-
-// `occludes` stands for the masks, `seen` for masks and culling.
-template <class Occludes, class Seen>
-Answers brute_force(const TestFrame& t, const RayBatch& rays, const Occludes& occludes, const Seen& seen) {
-  Answers a;
-  for (int i = 0; i < rays.count; ++i) {
-    uint32_t closest;
-    a.any.push_back(!brute_force_all(t.scene, rays, i, [&](uint32_t p) { return occludes(i, p); }, &closest).empty());
-    a.all.push_back(brute_force_all(t.scene, rays, i, [&](uint32_t p) { return seen(i, p); }, &closest));
-    a.closest.push_back(closest);
-  }
-  return a;
-}
-Answers brute_force(const TestFrame& t, const RayBatch& rays) {
-  const auto yes = [](int, uint32_t) { return true; };
-  return brute_force(t, rays, yes, yes);
-}
-
-Bvh build_all(const TestFrame& t) { return build_bvh(t.scene, t.material_flags.data(), 0, 0, *t.parallel); }
-
-void expect_equal(const Answers& got, const Answers& want, const RayBatch& rays, std::string_view where) {
-  if (got == want) return;
-  for (size_t i = 0; i < want.closest.size(); ++i)
-    if (got.closest[i] != want.closest[i] || got.any[i] != want.any[i] || got.all[i] != want.all[i]) {
-      const glm::dvec3 o = ray_origin(rays, static_cast<int>(i)), d = ray_direction(rays, static_cast<int>(i));
-      ADD_FAILURE() << where << " ray " << i << ": closest " << got.closest[i] << " want " << want.closest[i] << ", any " << got.any[i] << " want "
-                    << want.any[i] << ", all " << got.all[i].size() << " want " << want.all[i].size() << "; origin " << o.x << " " << o.y << " " << o.z
-                    << " direction " << d.x << " " << d.y << " " << d.z;
-      return;
-    }
-}
-
-RayBatch random_rays(TestRandom& random, int n) {
-  RayBatch rays = make_rays(n);
-  for (int i = 0; i < n; ++i) {
-    const float t_max = i % 3 == 0 ? static_cast<float>(random.uniform(0, 3)) : kInfinity;
-    const glm::dvec3 origin = random_point(random, 1.5);
-    set_ray(rays, i, origin, random_point(random, 1) - (i % 2 ? origin : glm::dvec3(0)), t_max);
-  }
-  return rays;
-}
 
 // Unit cubes on an integer grid, rays on the grid and along its axes: all ties and all zeros that there are.
 TEST(RayTrace, Y4_SignedZerosAndOriginsOnSlabs) {
@@ -188,51 +116,6 @@ TEST(RayTrace, ClosestAnyAndAllAgreeOnEveryInstructionSet) {
   }
   EXPECT_GT(std::count(first.any.begin(), first.any.end(), true), 5000);
   for (int i = 0; i < rays.count; i += 100) ASSERT_EQ(first.closest[static_cast<size_t>(i)], brute_force_closest(t->scene, rays, i)) << i;
-}
-
-// Neighbours that point into one octant go down the tree together: pencils of rays, wide and narrow, toward a mesh with large and small
-// triangles, some along an axis, some that end early, some invalid, in batches that do not fill the last packet.
-TEST(RayTrace, CoherentBatchesEqualBruteForceInAnyOrder) {
-  std::vector<SoupTriangle> soup;
-  TestRandom random(28);
-  std::vector<Material> materials(2);
-  materials[1].transparency = static_cast<int32_t>(MaterialTransparency::kMask);
-  materials[1].opacity = 0.5f;  // what is wholly opaque has nothing to ask accept(hit)
-  add_mesh(soup, make_sphere(2), 0.5, glm::dvec3(0.3, 0, 0), 1);
-  add_random_triangles(soup, random, 400, 0.2);
-  add_random_triangles(soup, random, 10, 2);
-  auto t = frame_of(soup, materials);
-  t->frame.accept_ray = [](const Frame&, const RayBatch& rays, int ray, uint32_t primitive) { return (rays.pixel[static_cast<size_t>(ray)] + primitive) % 2 == 0; };
-  const auto mask = [&](const RayBatch& rays) {
-    return [&](int i, uint32_t p) { return material_of(t->scene.triangles[p]) == 0 || (rays.pixel[static_cast<size_t>(i)] + p) % 2 == 0; };
-  };
-  const Bvh bvh = build_all(*t);
-  for (const double spread : {0.0, 0.01, 0.3}) {
-    const int n = 1003;
-    RayBatch rays = make_rays(n), shuffled = make_rays(n);
-    glm::dvec3 origin(0), direction(0);
-    for (int i = 0; i < n; ++i) {
-      if (i % 48 == 0) origin = random_point(random, 1.5), direction = i % 96 == 0 ? -origin : glm::dvec3(0, 0.0, i % 192 == 48 ? 1 : -1);
-      const bool on_axis = i % 96 >= 48;
-      glm::dvec3 d = direction + random_point(random, spread);
-      if (on_axis) d.x = 0, d.y = -0.0;
-      const glm::dvec3 o = origin + random_point(random, spread * 0.3);
-      set_ray(rays, i, o, i == 500 ? glm::dvec3(0) : d, i % 5 == 0 ? static_cast<float>(random.uniform(0, 2)) : kInfinity);
-      const int j = i * 500 % n;
-      set_ray(shuffled, j, ray_origin(rays, i), ray_direction(rays, i), rays.t_max[static_cast<size_t>(i)]);
-      shuffled.pixel[static_cast<size_t>(j)] = static_cast<uint32_t>(i);
-    }
-    const Answers want = brute_force(*t, rays, mask(rays), mask(rays));
-    EXPECT_GT(std::count(want.any.begin(), want.any.end(), true), n / 3);
-    for (const Isa isa : supported_isas()) {
-      expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
-      const Answers other = trace(*t, bvh, shuffled, isa);
-      for (int i = 0; i < n; ++i) {
-        const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(i * 500 % n);
-        ASSERT_TRUE(other.closest[b] == want.closest[a] && other.any[b] == want.any[a] && other.all[b] == want.all[a]) << isa_name(isa) << " ray " << i;
-      }
-    }
-  }
 }
 
 // The same 60 triangles thirteen times (more than a leaf holds), corners rotated and mirrored, among others that change the tree.

@@ -1,5 +1,5 @@
 // Every operation of simd/lanes-inl.h on floats, integers, masks and memory, on every instruction set, against a scalar model.
-// Doubles: simd_double_test.cpp.
+// Doubles: simd_double_test.cpp. The hard cases of the fused multiply-add: simd_fma_test.cpp.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -228,51 +228,6 @@ TEST(Lanes, FloorAndRoundAroundEveryHalf) {
   for (uint32_t i = 0; i < 2000; ++i) t.add(float_of(0x4afffc00u + i), 0, 0), t.add(float_of(0xcafffc00u + i), 0, 0), t.add(float_of(0x4efffc00u + i), 0, 0), t.add(float_of(0xcefffc00u + i), 0, 0);
   for (float& x : t.a) if (std::isnan(x)) x = 0;  // below zero and around -0 the bits above wrap
   for (const int op : {13, 14, 15}) check_float_op(op, t);
-}
-
-// c + a b lies on, or closer than double can tell to, the middle between two floats: where rounding twice goes wrong.
-TEST(Lanes, FmaTiesByConstruction) {
-  TestRandom random(2);
-  Triples t;
-  for (int i = 0; i < 60000; ++i) {
-    const uint32_t c_bits = i % 4 == 0 ? random.bits() % 0x00900000u                       // subnormal, or just above
-                            : i % 4 == 1 ? 0x7f7fffffu - random.bits() % 8                 // next to overflow
-                                         : 0x00800000u + random.bits() % 0x7e000000u;
-    const float c = float_of(c_bits);
-    int e;
-    std::frexp(c, &e);
-    const int half_ulp = std::max(e - 24, -149) - 1;
-    const float k = static_cast<float>(random.between(0, i % 3 ? 8 : 2000)) * 0x1p-23f;
-    const int split = std::max(std::min(half_ulp / 2, 100), -100);  // the product must be reached by two floats
-    const float sign = (random.bits() & 1) ? -1.0f : 1.0f;
-    const float a = std::ldexp(1.0f + k, split) * sign, b = std::ldexp(1.0f - k, half_ulp - split);  // half ulp (1 - k^2)
-    t.add(a, b, c), t.add(a, b, -c);
-    const float above = std::ldexp(1.0f + k, half_ulp - split);  // half ulp (1 + k)^2
-    t.add(a, above, c), t.add(a, above, -c);
-    t.add(std::ldexp(3.0f, split) * sign, std::ldexp(1.0f, half_ulp - split), c);  // exactly three halves
-  }
-  check_float_op(5, t);
-  check_float_op(6, t);
-}
-
-TEST(Lanes, FmaCancellationUnderflowAndOverflow) {
-  TestRandom random(3);
-  Triples t;
-  for (int i = 0; i < 40000; ++i) {
-    const float a = float_of(0x3f800000u + random.bits() % 0x00800000u), b = float_of(0x3f800000u + random.bits() % 0x00800000u);
-    t.add(a, b, -(a * b));                                         // only the rounding error is left
-    t.add(a * 0x1p-74f, b * 0x1p-75f, float_of(random.bits() % 16));     // subnormal sums
-    t.add(a * 0x1p-120f, b * 0x1p-120f, float_of(random.bits() % 0x01000000u));  // far below: only ties could move
-    t.add(a * 0x1p-120f, -b * 0x1p-120f, float_of(0x3f800000u + random.bits() % 4));
-    t.add(a * 0x1p63f, b * 0x1p64f, -float_of(0x7f000000u + random.bits() % 0x00800000u));
-    t.add(a * 0x1p100f, b * 0x1p100f, -float_of(0x7f7fffffu));
-  }
-  const std::vector<float> hard = hard_floats();
-  for (const float a : hard)
-    for (const float b : hard)
-      for (const float c : hard) t.add(a, b, c);
-  check_float_op(5, t);
-  check_float_op(6, t);
 }
 
 TEST(Lanes, EveryIntegerOperationEqualsItsModel) {

@@ -76,4 +76,11 @@ inline void random_primary_hits(const Frame& frame, TestRandom& random, int n, H
   }
 }
 
+// A frame whose plan has every part of a surface.
+inline std::unique_ptr<TestFrame> full_frame(SceneData scene, const Camera& camera, int width, int height, Isa isa = Isa::kAuto) {
+  auto t = make_test_frame(std::move(scene), camera, test_settings(width, height, isa));
+  plan_all(t->frame);
+  return t;
+}
+
 }  // namespace spanray

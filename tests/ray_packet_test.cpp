@@ -1,0 +1,55 @@
+// Rays that go down the tree together answer as if each went alone.
+#include <gtest/gtest.h>
+
+#include "support/ray_answers.h"
+
+namespace spanray {
+namespace {
+
+// Neighbours that point into one octant go down the tree together: pencils of rays, wide and narrow, toward a mesh with large and small
+// triangles, some along an axis, some that end early, some invalid, in batches that do not fill the last packet.
+TEST(RayPacket, CoherentBatchesEqualBruteForceInAnyOrder) {
+  std::vector<SoupTriangle> soup;
+  TestRandom random(28);
+  std::vector<Material> materials(2);
+  materials[1].transparency = static_cast<int32_t>(MaterialTransparency::kMask);
+  materials[1].opacity = 0.5f;  // what is wholly opaque has nothing to ask accept(hit)
+  add_mesh(soup, make_sphere(2), 0.5, glm::dvec3(0.3, 0, 0), 1);
+  add_random_triangles(soup, random, 400, 0.2);
+  add_random_triangles(soup, random, 10, 2);
+  auto t = frame_of(soup, materials);
+  t->frame.accept_ray = [](const Frame&, const RayBatch& rays, int ray, uint32_t primitive) { return (rays.pixel[static_cast<size_t>(ray)] + primitive) % 2 == 0; };
+  const auto mask = [&](const RayBatch& rays) {
+    return [&](int i, uint32_t p) { return material_of(t->scene.triangles[p]) == 0 || (rays.pixel[static_cast<size_t>(i)] + p) % 2 == 0; };
+  };
+  const Bvh bvh = build_all(*t);
+  for (const double spread : {0.0, 0.01, 0.3}) {
+    const int n = 1003;
+    RayBatch rays = make_rays(n), shuffled = make_rays(n);
+    glm::dvec3 origin(0), direction(0);
+    for (int i = 0; i < n; ++i) {
+      if (i % 48 == 0) origin = random_point(random, 1.5), direction = i % 96 == 0 ? -origin : glm::dvec3(0, 0.0, i % 192 == 48 ? 1 : -1);
+      const bool on_axis = i % 96 >= 48;
+      glm::dvec3 d = direction + random_point(random, spread);
+      if (on_axis) d.x = 0, d.y = -0.0;
+      const glm::dvec3 o = origin + random_point(random, spread * 0.3);
+      set_ray(rays, i, o, i == 500 ? glm::dvec3(0) : d, i % 5 == 0 ? static_cast<float>(random.uniform(0, 2)) : kInfinity);
+      const int j = i * 500 % n;
+      set_ray(shuffled, j, ray_origin(rays, i), ray_direction(rays, i), rays.t_max[static_cast<size_t>(i)]);
+      shuffled.pixel[static_cast<size_t>(j)] = static_cast<uint32_t>(i);
+    }
+    const Answers want = brute_force(*t, rays, mask(rays), mask(rays));
+    EXPECT_GT(std::count(want.any.begin(), want.any.end(), true), n / 3);
+    for (const Isa isa : supported_isas()) {
+      expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
+      const Answers other = trace(*t, bvh, shuffled, isa);
+      for (int i = 0; i < n; ++i) {
+        const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(i * 500 % n);
+        ASSERT_TRUE(other.closest[b] == want.closest[a] && other.any[b] == want.any[a] && other.all[b] == want.all[a]) << isa_name(isa) << " ray " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spanray

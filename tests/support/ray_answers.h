@@ -1,0 +1,85 @@
+// What a tree answers to a batch of rays, and what brute force does.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "ray/bvh.h"
+#include "support/bvh_oracle.h"
+
+namespace spanray {
+
+inline std::unique_ptr<TestFrame> frame_of(const std::vector<SoupTriangle>& soup, std::vector<Material> materials = {}) {
+  return make_test_frame(make_test_scene(soup, std::move(materials)), Camera(), test_settings(16, 16));
+}
+
+struct Answers {
+  std::vector<uint32_t> closest;
+  std::vector<bool> any;
+  std::vector<std::vector<uint32_t>> all;  // ascending
+  bool operator==(const Answers&) const = default;
+};
+
+inline Answers trace(TestFrame& t, const Bvh& bvh, const RayBatch& rays, Isa isa) {
+  t.frame.isa = isa;
+  const size_t n = static_cast<size_t>(rays.count);
+  Answers a;
+  a.closest.resize(n), a.all.resize(n);
+  std::vector<uint32_t> bits(n / 32 + 1, 0xdeadbeef);
+  trace_closest(t.frame, bvh, rays, a.closest.data());
+  trace_any(t.frame, bvh, rays, bits.data());
+  FragmentList list;
+  trace_all(t.frame, bvh, rays, list);
+  for (size_t i = 0; i < n; ++i) a.any.push_back(bits[i / 32] >> (i % 32) & 1);
+  for (size_t i = 0; i < list.ray.size(); ++i) {
+    EXPECT_EQ(list.pixel[i], rays.pixel[list.ray[i]]);
+    a.all[list.ray[i]].push_back(list.primitive[i]);
+  }
+  for (auto& hits : a.all) std::sort(hits.begin(), hits.end());
+  return a;
+}
+
+// `occludes` stands for the masks, `seen` for masks and culling.
+template <class Occludes, class Seen>
+Answers brute_force(const TestFrame& t, const RayBatch& rays, const Occludes& occludes, const Seen& seen) {
+  Answers a;
+  for (int i = 0; i < rays.count; ++i) {
+    uint32_t closest;
+    a.any.push_back(!brute_force_all(t.scene, rays, i, [&](uint32_t p) { return occludes(i, p); }, &closest).empty());
+    a.all.push_back(brute_force_all(t.scene, rays, i, [&](uint32_t p) { return seen(i, p); }, &closest));
+    a.closest.push_back(closest);
+  }
+  return a;
+}
+inline Answers brute_force(const TestFrame& t, const RayBatch& rays) {
+  const auto yes = [](int, uint32_t) { return true; };
+  return brute_force(t, rays, yes, yes);
+}
+
+inline Bvh build_all(const TestFrame& t) { return build_bvh(t.scene, t.material_flags.data(), 0, 0, *t.parallel); }
+
+inline void expect_equal(const Answers& got, const Answers& want, const RayBatch& rays, std::string_view where) {
+  if (got == want) return;
+  for (size_t i = 0; i < want.closest.size(); ++i)
+    if (got.closest[i] != want.closest[i] || got.any[i] != want.any[i] || got.all[i] != want.all[i]) {
+      const glm::dvec3 o = ray_origin(rays, static_cast<int>(i)), d = ray_direction(rays, static_cast<int>(i));
+      ADD_FAILURE() << where << " ray " << i << ": closest " << got.closest[i] << " want " << want.closest[i] << ", any " << got.any[i] << " want "
+                    << want.any[i] << ", all " << got.all[i].size() << " want " << want.all[i].size() << "; origin " << o.x << " " << o.y << " " << o.z
+                    << " direction " << d.x << " " << d.y << " " << d.z;
+      return;
+    }
+}
+
+inline RayBatch random_rays(TestRandom& random, int n) {
+  RayBatch rays = make_rays(n);
+  for (int i = 0; i < n; ++i) {
+    const float t_max = i % 3 == 0 ? static_cast<float>(random.uniform(0, 3)) : kInfinity;
+    const glm::dvec3 origin = random_point(random, 1.5);
+    set_ray(rays, i, origin, random_point(random, 1) - (i % 2 ? origin : glm::dvec3(0)), t_max);
+  }
+  return rays;
+}
+
+}  // namespace spanray
