@@ -27,11 +27,11 @@ Points operator+(Points a, const Points& b) {
 void arch_wall(ObjMesh& mesh, const Placement& at, const ArchWall& w) {
   const double half = w.width / 2, z = w.depth / 2;
   const auto corner = [&](double x, double y, double cz, const Point& n) {
-    const glm::dvec2 uv = n.z != 0 ? glm::dvec2{x, y} : glm::dvec2{cz, n.x != 0 ? y : x};
+    const glm::dvec2 uv = n.z != 0 ? glm::dvec2{x + w.uv_start.x, y + w.uv_start.y} : glm::dvec2{cz, n.x != 0 ? y : x};
     return Corner{at.point({x, y, cz}), at.direction(n), uv / w.texture_size};
   };
   const auto on_arch = [&](double s, double* c, double* sn) { sin_cos(kPi * (1 - s), sn, c); };  // s: left to right
-  const int rows = 3;
+  const int rows = w.rows;
   for (int side = -1; side <= 1; side += 2) {
     const Point n{0, 0, static_cast<double>(side)};
     const auto face = [&](int columns, int r, const std::function<glm::dvec2(double, double)>& xy) {
@@ -48,11 +48,11 @@ void arch_wall(ObjMesh& mesh, const Placement& at, const ArchWall& w) {
     });
     for (int jamb = -1; jamb <= 1; jamb += 2) {
       const double left = jamb < 0 ? -half : w.radius, right = jamb < 0 ? -w.radius : half;
-      face(1, rows, [&](double s, double t) { return glm::dvec2{left + (right - left) * s, w.spring + (w.top - w.spring) * t}; });
-      if (w.bottom < w.spring) face(1, rows, [&](double s, double t) { return glm::dvec2{left + (right - left) * s, w.bottom + (w.spring - w.bottom) * t}; });
+      face(w.columns, rows, [&](double s, double t) { return glm::dvec2{left + (right - left) * s, w.spring + (w.top - w.spring) * t}; });
+      if (w.bottom < w.spring) face(w.columns, rows, [&](double s, double t) { return glm::dvec2{left + (right - left) * s, w.bottom + (w.spring - w.bottom) * t}; });
     }
   }
-  patch(mesh, 2, w.segments, [&](double s, double t) {  // the inside of the arch
+  patch(mesh, w.deep, w.segments, [&](double s, double t) {  // the inside of the arch
     double c, sn;
     on_arch(t, &c, &sn);
     return Corner{at.point({w.radius * c, w.spring + w.radius * sn, z - 2 * z * s}), at.direction({-c, -sn, 0}),
@@ -60,25 +60,25 @@ void arch_wall(ObjMesh& mesh, const Placement& at, const ArchWall& w) {
   });
   for (int jamb = -1; jamb <= 1; jamb += 2) {
     const double inner = jamb * w.radius, outer = jamb * half;
-    patch(mesh, 2, 1, [&](double s, double t) {  // the underside
+    patch(mesh, w.deep, w.columns, [&](double s, double t) {  // the underside
       return corner(inner + (outer - inner) * t, w.bottom, jamb * (z - 2 * z * s), {0, -1, 0});
     });
     if (w.bottom < w.spring) {
-      patch(mesh, 2, rows, [&](double s, double t) {
+      patch(mesh, w.deep, rows, [&](double s, double t) {
         return corner(inner, w.bottom + (w.spring - w.bottom) * t, jamb * (2 * z * s - z), {-static_cast<double>(jamb), 0, 0});
       });
     }
   }
 }
 
-void archivolt(ObjMesh& mesh, const Placement& at, const ArchWall& w, double wide, double proud) {
+void archivolt(ObjMesh& mesh, const Placement& at, const ArchWall& w, double wide, double proud, int segments) {
   const double r = w.radius + 0.03, z = w.depth / 2, q = proud / 2;
   const double step = r + wide * 0.55;
   const Profile section = Outline(r, z - 0.02).line(r + wide, z - 0.02).line(r + wide, z + q).smooth(arc({r + wide - q, z + q}, q, q, 0, 90, 4))
                               .line(step, z + 2 * q).smooth(arc({step - q, z + 2 * q}, q, q, 0, -90, 3)).line(r, z + q).line(r, z - 0.02).done();
   Placement up = at;
   up.origin = at.point({0, w.spring, 0});
-  arch(mesh, up, section, 24, w.texture_size);
+  arch(mesh, up, section, segments, w.texture_size);
 }
 
 void column_base_and_capital(ObjMesh& mesh, const Placement& at, double texture_size) {

@@ -6,11 +6,16 @@ namespace spanray::assets {
 
 // A wall in the plane z = 0 of the placement, |z| <= depth / 2, |x| <= width / 2, with one arched opening centered on x = 0:
 // half circle of `radius` over `spring`, straight jambs below it down to `bottom`. Closed but for its two ends and top.
-struct ArchWall { double width, radius, bottom, spring, top, depth, texture_size; int segments = 24; };
+// `rows` up each face, `columns` across each jamb, `deep` through the wall. uv is in meters from uv_start (of the placement's x, y).
+struct ArchWall {
+  double width, radius, bottom, spring, top, depth, texture_size;
+  int segments = 24, rows = 3, columns = 1, deep = 2;
+  glm::dvec2 uv_start = {0, 0};
+};
 void arch_wall(ObjMesh& mesh, const Placement& at, const ArchWall& wall);
 
 // The molded ring around such an opening, on the side z > 0, standing out from the wall.
-void archivolt(ObjMesh& mesh, const Placement& at, const ArchWall& wall, double wide, double proud);
+void archivolt(ObjMesh& mesh, const Placement& at, const ArchWall& wall, double wide, double proud, int segments = 24);
 
 // A Tuscan column, 2.66 high, standing on y = 0 of the placement: base and capital, and the shaft between.
 void column_base_and_capital(ObjMesh& mesh, const Placement& at, double texture_size);

@@ -68,6 +68,14 @@ void patch(ObjMesh& mesh, int columns, int rows, const std::function<Corner(doub
   }
 }
 
+void smooth_patch(ObjMesh& mesh, int columns, int rows, const std::function<Point(double, double)>& at,
+                  const std::function<glm::dvec2(double, double)>& uv, double h, const Point& fallback) {
+  patch(mesh, columns, rows, [&](double s, double t) {
+    const Point ds = at(s + h, t) - at(s - h, t), dt = at(s, t + h) - at(s, t - h);
+    return Corner{at(s, t), normalize3(cross3(ds, dt), fallback), uv(s, t)};
+  });
+}
+
 void rectangle(ObjMesh& mesh, const Point& corner, const Point& along_u, const Point& along_v, int columns, int rows,
                double texture_size, glm::dvec2 uv_start) {
   const Point normal = normalize3(cross3(along_u, along_v), Point{0, 1, 0});
@@ -137,6 +145,20 @@ std::vector<glm::dvec2> arc(glm::dvec2 center, double radius_a, double radius_b,
     points.push_back({center.x + radius_a * c, center.y + radius_b * s});
   }
   return points;
+}
+
+Profile refined(const Profile& profile, double longest) {
+  Profile out;
+  for (const auto& piece : profile) {
+    std::vector<glm::dvec2> points = {piece.front()};
+    for (size_t i = 1; i < piece.size(); ++i) {
+      const glm::dvec2 step = piece[i] - piece[i - 1];
+      const int n = 1 + static_cast<int>(std::floor(std::sqrt(step.x * step.x + step.y * step.y) / longest));
+      for (int k = 1; k <= n; ++k) points.push_back(k < n ? piece[i - 1] + (static_cast<double>(k) / n) * step : piece[i]);
+    }
+    out.push_back(points);
+  }
+  return out;
 }
 
 Outline& Outline::line(double a, double b) { return smooth({{a, b}}); }

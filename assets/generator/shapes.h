@@ -22,6 +22,10 @@ Placement placed(const Point& origin, double degrees = 0);
 // columns x rows quads over s, t in [0, 1]; the front is where (d/ds) x (d/dt) points.
 void patch(ObjMesh& mesh, int columns, int rows, const std::function<Corner(double s, double t)>& at);
 
+// The same from points alone: normals by central differences of `step` in s and t. `at` must be smooth a step beyond its edges.
+void smooth_patch(ObjMesh& mesh, int columns, int rows, const std::function<Point(double s, double t)>& at,
+                  const std::function<glm::dvec2(double s, double t)>& uv, double step = 1e-3, const Point& fallback = {0, 0, 1});
+
 // A rectangle from `corner` along two perpendicular edges; front along cross(along_u, along_v).
 // Texture coordinates are meters / texture_size, starting at uv_start.
 void rectangle(ObjMesh& mesh, const Point& corner, const Point& along_u, const Point& along_v, int columns, int rows,
@@ -38,6 +42,9 @@ void sphere(ObjMesh& mesh, const Point& center, double radius, int segments, glm
 using Profile = std::vector<std::vector<glm::dvec2>>;  // smooth pieces, one after the other, hard edges between them
 // Points on a circular arc from angle `from` to `to` (degrees), ends included.
 std::vector<glm::dvec2> arc(glm::dvec2 center, double radius_a, double radius_b, double from, double to, int segments);
+
+// The same line with steps of at most `longest`.
+Profile refined(const Profile& profile, double longest);
 
 // A profile drawn like a pen line: each piece begins where the last one ended, so that nothing gapes.
 class Outline {

@@ -28,4 +28,18 @@ Picture gauze_color(int size);       // woven stripes, along v
 Picture ceramic_color(int width, int height);  // bands and lozenges of a painted vase, bottom to top
 Picture globe_color(int width, int height);    // land and sea of a world that never was; tiles along u
 
+// The gallery hall.
+Picture hall_floor_color(int size);      // one bay of inlaid marble: border, roundel, corner squares
+Picture ashlar_color(int size);          // six courses of cut stone, three blocks each
+Picture ashlar_height(int size);
+Picture hall_brick_color(int size);      // 8 bricks x 24 courses
+Picture hall_brick_height(int size);
+Picture relief_sun_color(int size);      // a rosette in a ring of beads; one panel, edges included
+Picture relief_sun_height(int size);
+Picture relief_vine_color(int size);     // a plant of scrolls, mirrored about its stem
+Picture relief_vine_height(int size);
+Picture cut_stone_color(int size);       // fine, pale, without joints
+Picture coffer_color(int size);          // deep blue, worn
+Picture lattice_mask(int size);          // gray: iron bars of a window, 4 x 4 panes
+
 }  // namespace spanray::assets

@@ -39,6 +39,8 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("glass", "glass.toml", 0, all_on);
   add("glass_rays", "glass.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay, s.shading = Shading::kGouraud; });
   add("glass_screen_door", "glass.toml", 0, [](Settings& s) { s.transparency = Transparency::kScreenDoor; });
+  add("hall", "hall.toml", 0, all_on);
+  add("hall_aisle", "hall.toml", 1, all_on);
   return frames;
 }
 
