@@ -1,7 +1,11 @@
-# The flags of the numerical contract (docs/decisions/0001-lanes.md), private to our own targets.
+# The flags of the numerical contract (docs/decisions/0001-lanes.md), and our warnings: private to our own targets.
 function(spanray_flags target)
-  target_compile_options(${target} PRIVATE
-    -ffp-contract=off -fno-fast-math -Wall -Wextra -Wshadow -Wpedantic -Wconversion -Wno-sign-conversion -Werror)
+  spanray_contract_flags(${target} -Wall -Wextra -Wshadow -Wpedantic -Wconversion -Wno-sign-conversion -Werror)
+endfunction()
+
+# The flags without our warnings: what spanray_add_formula() compiles in other people's projects. Further arguments: more options.
+function(spanray_contract_flags target)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math ${ARGN})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # -Wpsabi speaks of AVX-512 arguments between targets; all such functions are inlined.
     # -Wrestrict is wrong about "text" + std::string in GCC 12 (GCC bug 105651).

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -62,6 +63,36 @@ TEST_F(CatalogBuild, PicksUpANewFile) {
   // By its index, last, although first by name: scenes keep their numbers.
   EXPECT_EQ(read("out/catalog_reflectance_list.inc"), before + "SPANRAY_CATALOG_ENTRY(2, a_new_model)\n");
   EXPECT_NE(read("out/catalog_reflectance.inc").find("#include \"catalog/reflectance/a_new_model.inl\""), std::string::npos);
+}
+
+// Files of engine/ that include one of `headers`, by their names from there; sources (.cpp) or headers.
+std::set<std::string> includers(const fs::path& engine, const std::set<std::string>& headers, bool sources) {
+  std::set<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(engine)) {
+    if (!entry.is_regular_file() || (entry.path().extension() == ".cpp") != sources) continue;
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    for (const std::string& header : headers)
+      if (text.str().find("#include \"" + header + "\"") != std::string::npos) found.insert(fs::relative(entry.path(), engine).generic_string());
+  }
+  return found;
+}
+
+// What spanray_add_formula() compiles again is what reads the catalog of reflectances, and nothing less.
+TEST(Catalog, AllSourcesThatReadReflectancesAreCompiledForAFormulaOfOnesOwn) {
+  const fs::path root = SPANRAY_SOURCE_DIR;
+  std::set<std::string> headers = {"catalog_reflectance.inc", "catalog_reflectance_list.inc"};
+  for (size_t before = 0; before != headers.size();) {
+    before = headers.size();
+    headers.merge(includers(root / "engine", headers, false));
+  }
+  EXPECT_TRUE(headers.count("shade/light_lanes-inl.h") == 1) << "the search follows no headers";
+  std::stringstream cmake;
+  cmake << std::ifstream(root / "cmake/SpanrayFormulas.cmake").rdbuf();
+  const std::set<std::string> sources = includers(root / "engine", headers, true);
+  EXPECT_GE(sources.size(), 3u);
+  for (const std::string& source : sources)
+    EXPECT_NE(cmake.str().find(" " + source), std::string::npos) << source << " reads reflectances: add it to spanray_formula_sources";
 }
 
 TEST_F(CatalogBuild, RefusesMistakesByName) {
