@@ -7,6 +7,7 @@
 #include "frame/transparency.h"
 #include "gl_context.h"
 #include "math/color.h"
+#include "scene/default_view.h"
 
 namespace spanray::peers {
 namespace {
@@ -35,6 +36,12 @@ void set_lights(GLuint program, const char* name, const std::vector<Light>& ligh
   for (const Light& light : lights)
     for (const float v : light.*field) values.push_back(v * scale);
   if (!values.empty()) glUniform3fv(glGetUniformLocation(program, name), static_cast<GLsizei>(lights.size()), values.data());
+}
+
+// As render/render_frame.cpp takes them: a default light follows the eye.
+std::vector<Light> lights_of(const SceneData& scene, const Camera& camera) {
+  if (scene.light_follows_eye) return {default_light(scene, camera)};
+  return scene.lights;
 }
 
 }  // namespace
@@ -166,10 +173,11 @@ void GlRenderer::set_frame_uniforms(GLuint program, const Camera& camera) const 
   }
   glUniformMatrix4fv(glGetUniformLocation(program, "uClipFromWorld"), 1, GL_TRUE, m);
   glUniform3f(glGetUniformLocation(program, "uEye"), static_cast<float>(rays.eye.x), static_cast<float>(rays.eye.y), static_cast<float>(rays.eye.z));
-  set_lights(program, "uPosition", scene.lights, &Light::position, 1);
-  set_lights(program, "uDirection", scene.lights, &Light::direction, 1);
-  set_lights(program, "uFalloff", scene.lights, &Light::attenuation, 1);
-  set_lights(program, "uIntensity", scene.lights, &Light::intensity, kInversePi);
+  const std::vector<Light> lights = lights_of(scene, camera);
+  set_lights(program, "uPosition", lights, &Light::position, 1);
+  set_lights(program, "uDirection", lights, &Light::direction, 1);
+  set_lights(program, "uFalloff", lights, &Light::attenuation, 1);
+  set_lights(program, "uIntensity", lights, &Light::intensity, kInversePi);
   glUniform1i(glGetUniformLocation(program, "uColor"), 0);
   glUniform1i(glGetUniformLocation(program, "uOpacity"), 1);
 }

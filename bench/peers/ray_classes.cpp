@@ -7,6 +7,7 @@
 #include "math/elementary.h"
 #include "measure.h"
 #include "render/plan.h"
+#include "scene/default_view.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -115,6 +116,10 @@ TracedScene::TracedScene(const Scene& traced, const Camera& camera, const Settin
   frame.scene = &data;
   frame.primary = make_primary_rays(camera, settings.width, settings.height);
   frame.grid = TileGrid(settings.width, settings.height);
+  if (data.light_follows_eye) {
+    eye_light = default_light(data, camera);
+    frame.eye_light = &eye_light;
+  }
   frame.isa = resolve_isa(settings.isa);
   frame.parallel = &parallel;
   frame.material_flags = flags.data();
