@@ -98,6 +98,7 @@ void FrameOptions::add_number(CLI::App& command, const std::string& name, int Se
 
 void FrameOptions::add_to(CLI::App& command) {
   command.add_option("SCENE", scene_path_, "Scene file (.toml) or mesh (.obj)")->required();
+  command.add_flag("--allow-outside", allow_outside_, "Let the OBJ's material libraries and textures lie outside its folder");
   const auto size = [this](const std::string& text) {
     Settings sized;
     parse_size(text, sized);
@@ -129,6 +130,7 @@ void FrameOptions::add_to(CLI::App& command) {
 Result<Job> FrameOptions::load() const {
   LoadOptions options;
   options.camera_given = camera_.has_value();
+  options.allow_outside = allow_outside_;
   Result<LoadedScene> loaded = load_scene(scene_path_, options);
   if (!loaded) return loaded.error();
   if (const uint64_t warnings = loaded.value().warnings; strict_ && warnings > 0) {

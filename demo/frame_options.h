@@ -47,7 +47,7 @@ class FrameOptions {
 
   std::string scene_path_, camera_name_;
   std::optional<CameraNumbers> camera_;  // go over the scene's first camera
-  bool strict_ = false;
+  bool strict_ = false, allow_outside_ = false;
   std::vector<std::function<void(Settings&)>> changes_;
 };
 

@@ -73,6 +73,29 @@ TEST(CodecPng, PalettesAndSmallGraysAreExpanded) {
   EXPECT_EQ(image.value().samples, (std::vector<uint16_t>{51, 255}));
 }
 
+std::vector<uint16_t> hostile_samples(const std::string& name) {
+  const Result<RawImage> image = decode_image_file(SPANRAY_SOURCE_DIR "/tests/hostile/" + name);
+  EXPECT_TRUE(image) << image.error().to_string();
+  return image ? image.value().samples : std::vector<uint16_t>{};
+}
+
+TEST(CodecPng, TransparentColorsAndForeignPaletteIndices) {
+  EXPECT_EQ(hostile_samples("png/gray8_key.png"), (std::vector<uint16_t>{1, 255, 2, 255, 3, 0, 4, 255, 5, 255, 6, 255, 7, 255, 8, 255}));
+  EXPECT_EQ(hostile_samples("png/rgb16_key.png"), (std::vector<uint16_t>{0x0102, 0x0304, 0x0506, 0}));
+  // Of two entries; indices 1 to 8.
+  const std::vector<uint16_t> palette = hostile_samples("png/palette_index_out.png");
+  ASSERT_EQ(palette.size(), 24u);
+  EXPECT_EQ((std::vector<uint16_t>(palette.begin(), palette.begin() + 3)), (std::vector<uint16_t>{'d', 'e', 'f'}));
+  for (size_t i = 3; i < palette.size(); ++i) EXPECT_EQ(palette[i], 0) << "past the palette is black";
+}
+
+TEST(CodecPng, GammaProfilesTextAndTrailingBytesChangeNothing) {
+  const std::vector<uint16_t> plain = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (const char* name : {"gamma_and_profile", "gamma_zero", "text_bomb", "many_idat", "unknown_ancillary", "bytes_after_end",
+                           "too_many_rows"})
+    EXPECT_EQ(hostile_samples("png/" + std::string(name) + ".png"), plain) << name;
+}
+
 TEST(CodecPng, EveryTruncationIsAnError) {
   TestRandom random(2);
   for (const bool interlaced : {false, true}) {

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <mutex>
+#include <new>
 #include <set>
 #include <thread>
 
 #include "math/elementary.h"
+#include "shade/lit_vertex_cache.h"
 #include "support/test_surfaces.h"
 
 namespace spanray {
@@ -123,7 +126,8 @@ TEST(Gouraud, CacheDoesNotDependOnTasksOrOrder) {
   for (const int threads : {1, 2, 7}) {
     Parallel pool(threads);
     std::set<std::thread::id> workers;
-    for (int frame = 0; frame < 20; ++frame) {
+    // On a busy machine it takes many short frames until a second worker finds any work left.
+    for (int frame = 0; frame < 20 || (threads > 1 && workers.size() < 2 && frame < 2000); ++frame) {
       cache.reset();
       TestRadiance got(kCount);
       // All parts see the same sixty triangles: tasks meet at nearly every vertex.
@@ -191,6 +195,27 @@ TEST(Gouraud, CornerNormalsAreTurnedAsOne) {
     EXPECT_NEAR(seen[opposed], (2 * up + third) / 3, 1e-6);
   }
   EXPECT_EQ(seen[0], seen[1]);
+}
+
+// A task that throws while it has claims must not leave the others waiting for ever: they return, and its exception ends the frame.
+TEST(Gouraud, NobodyWaitsForATaskThatFailed) {
+  auto t = make_test_surfaces(7, kCount, Shading::kGouraud, false);
+  LitVertexCache cache(vertex_count(*t), t->scene().lights.size());
+  for (uint32_t v = 0; v < vertex_count(*t); v += 2) ASSERT_TRUE(cache.impl().try_claim(v));
+  std::thread other([&] { cache.impl().light_vertices_of(t->frame(), t->surfaces); });
+  try {
+    const ClaimGuard guard(cache.impl().abandoned);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    throw std::bad_alloc();
+  } catch (const std::bad_alloc&) {
+  }
+  other.join();  // hangs, were it not for the guard
+  EXPECT_TRUE(cache.impl().abandoned);
+  EXPECT_GT(cache.lit_count(), 0u) << "it lit what it could claim";
+  cache.reset();
+  EXPECT_FALSE(cache.impl().abandoned);
+  cache.impl().light_vertices_of(t->frame(), t->surfaces);
+  EXPECT_FALSE(cache.impl().abandoned) << "a task that ends well releases its guard";
 }
 
 TEST(Gouraud, EmptyCacheAndEmptyBatchAreFine) {

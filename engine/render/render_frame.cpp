@@ -1,6 +1,7 @@
 // The ten-minute walk: everything that happens to a frame, in order. The loop inside a tile is in render/tile.cpp.
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <new>
 
 #include "core/fp_env.h"
@@ -161,6 +162,8 @@ Result<FrameStats> Renderer::render(const Scene& scene, const Camera& camera, co
     return impl_->render(camera, settings, out, request);
   } catch (const std::bad_alloc&) {
     return Error{"out of memory for a frame of " + std::to_string(settings.width) + "x" + std::to_string(settings.height) + " pixels"};
+  } catch (const std::exception& e) {  // of the threads, above all: none to be had
+    return Error{std::string("cannot render: ") + e.what()};
   }
 }
 

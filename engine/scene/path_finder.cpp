@@ -38,7 +38,7 @@ Result<std::string> PathFinder::find(const std::string& base, std::string_view n
   if (slashes.empty()) return Error{"no file name"};
   if (slashes.find('\0') != std::string::npos) return Error{"file name " + quoted(name) + " holds a NUL byte"};
   const bool absolute = slashes.front() == '/' || (slashes.size() > 1 && slashes[1] == ':');
-  if (absolute && !allow_outside_) return Error{"file " + quoted(name) + " lies outside the scene's folder"};
+  if (absolute && !allow_outside_) return Error{"file " + quoted(name) + " lies outside the scene's folder (see --allow-outside)"};
   std::string path = absolute ? std::string("/") : base;
   int depth = 0;
   for (size_t begin = 0; begin <= slashes.size();) {
@@ -59,7 +59,7 @@ Result<std::string> PathFinder::find(const std::string& base, std::string_view n
     path = std::move(next);
   }
   std::error_code error;
-  if (!allow_outside_ && !inside_root(path)) return Error{"file " + quoted(name) + " lies outside the scene's folder"};
+  if (!allow_outside_ && !inside_root(path)) return Error{"file " + quoted(name) + " lies outside the scene's folder (see --allow-outside)"};
   if (fs::is_directory(path, error)) return Error{quoted(name) + " is a directory, not a file"};
   if (!fs::is_regular_file(path, error)) return Error{quoted(name) + " is not a regular file"};
   return path;

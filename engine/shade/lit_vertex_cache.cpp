@@ -16,6 +16,10 @@ bool LitVertexCache::Impl::try_claim(uint32_t vertex) {
   return (state | 1) != 2 * epoch + 1 && states[vertex].compare_exchange_strong(state, 2 * epoch, std::memory_order_relaxed);
 }
 
+void LitVertexCache::Impl::wait_for(uint32_t vertex) const {
+  while (!is_lit(vertex) && !abandoned.load(std::memory_order_relaxed)) std::this_thread::yield();
+}
+
 void LitVertexCache::Impl::light_vertices_of(const Frame& frame, const SurfaceBatch& surfaces) {
   constexpr int kChunk = 96;  // vertices lit at once
   uint32_t claimed[kChunk + 16] = {}, material[kChunk + 16] = {};
@@ -37,6 +41,7 @@ void LitVertexCache::Impl::light_vertices_of(const Frame& frame, const SurfaceBa
 
   // A task first lights all that it claimed and only then waits for others: no two tasks can wait for each other.
   bool wait = false;
+  ClaimGuard guard(abandoned);
   for_each_triangle([&](const Triangle& triangle) {
     for (const uint32_t vertex : triangle.vertex) {
       if (is_lit(vertex)) continue;
@@ -50,10 +55,11 @@ void LitVertexCache::Impl::light_vertices_of(const Frame& frame, const SurfaceBa
     }
   });
   if (count > 0) light_claimed();
+  guard.release();
   if (!wait) return;
   for_each_triangle([&](const Triangle& triangle) {
     for (const uint32_t vertex : triangle.vertex)
-      while (!is_lit(vertex)) std::this_thread::yield();
+      wait_for(vertex);
   });
 }
 
@@ -63,6 +69,7 @@ LitVertexCache::~LitVertexCache() = default;
 void LitVertexCache::reset() {
   Impl& i = *impl_;
   i.lit = 0;
+  i.abandoned = false;
   if (++i.epoch < 0x7fffffffu) return;
   for (size_t v = 0; v < i.vertices; ++v) i.states[v] = 0;
   i.epoch = 1;

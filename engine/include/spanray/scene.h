@@ -33,7 +33,7 @@ class Scene {
 
 struct LoadOptions {
   double crease_angle_degrees = 60;  // faces meeting at more than this keep a hard edge where the file has no normals
-  bool allow_outside = false;        // textures may lie outside the scene's folder
+  bool allow_outside = false;        // material libraries and textures may lie outside the OBJ's folder
   bool camera_given = false;         // the caller has a camera of its own: that the files give none is not worth a message
 };
 
