@@ -6,11 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "spanray/result.h"
+#include "speak.h"
 
 namespace spanray::demo {
-
-enum ExitCode : int { kDone = 0, kCouldNot = 1, kWrongUsage = 2 };
 
 // Wrong usage that the parser could not see, such as a camera name that the scene does not have. main turns it into exit 2.
 struct UsageError : std::runtime_error {
@@ -26,12 +24,6 @@ void add_why(CLI::App& app, Run& run);
 void add_walk(CLI::App& app, Run& run);
 // Commands of the design that this version lacks: they say so and end with exit 2.
 void add_missing(CLI::App& app, Run& run);
-
-// stderr, one line, "spanray: ..." before it.
-void message(const std::string& text);
-// The same as an error; returns kCouldNot.
-int fail(const Error& error);
-int fail(const std::string& text);
 
 // The compiler that built the program, e.g. "GCC 12.2.0".
 std::string compiler_name();

@@ -36,7 +36,7 @@ int compare_ladders(const CompareOptions& options) {
 // Pictures of another scene or contract may well differ; who compares them should know.
 void compare_text(const CompareOptions& options) {
   auto a = read_png_text(options.a), b = read_png_text(options.b);
-  for (const char* key : {kTextContract, kTextScene, kTextCamera, kTextSettings})
+  for (const char* key : {kTextContract, kTextScene, kTextCamera, kTextSettings, kTextView})
     if (!a[key].empty() && !b[key].empty() && a[key] != b[key])
       message(std::string("the pictures were made with different ") + key + ": " + a[key] + " and " + b[key]);
 }

@@ -30,12 +30,6 @@ void parse_size(const std::string& text, Settings& settings) {
   settings.width = width, settings.height = height;
 }
 
-// Shortest decimal that reads back as the very same number; independent of the locale.
-std::string number_text(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 }  // namespace
 
 std::optional<CameraNumbers> parse_camera(const std::string& text) {
@@ -127,8 +121,14 @@ void FrameOptions::add_to(CLI::App& command) {
   command.add_flag("--strict", strict_, "Warnings of the scene's files (a missing texture, ...) are errors");
 }
 
-Result<Job> FrameOptions::load() const {
+Settings FrameOptions::settings_over(Settings settings) const {
+  for (const auto& change : changes_) change(settings);
+  return settings;
+}
+
+Result<Job> FrameOptions::load(const LoadProgress& progress) const {
   LoadOptions options;
+  options.progress = progress;
   options.camera_given = camera_.has_value();
   options.allow_outside = allow_outside_;
   Result<LoadedScene> loaded = load_scene(scene_path_, options);
@@ -140,8 +140,7 @@ Result<Job> FrameOptions::load() const {
   Job job;
   job.scene = loaded.value().scene;
   job.messages = std::move(loaded.value().messages);
-  job.settings = job.scene.settings();
-  for (const auto& change : changes_) change(job.settings);
+  job.settings = settings_over(job.scene.settings());
   job.camera = job.scene.cameras()[0];
   if (camera_) camera_->apply(job.camera);
   if (camera_name_.empty()) return job;
@@ -156,36 +155,6 @@ Result<Job> FrameOptions::load() const {
   }
   throw UsageError("--camera: " + scene_path_ + " has no camera '" + camera_name_ + "'" + did_you_mean(camera_name_, names) +
                    "; it has " + known);
-}
-
-std::string camera_text(const Camera& c) {
-  std::string text;
-  for (const double value : {c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2], c.fov_y_degrees, c.up[0], c.up[1],
-                             c.up[2], c.near_plane})
-    text += (text.empty() ? "" : ",") + number_text(value);
-  return text;
-}
-
-std::string short_camera_text(const Camera& camera, const Scene& scene) {
-  const Camera& first = scene.cameras()[0];
-  std::string text = camera_text(camera);
-  if (!std::equal(camera.up, camera.up + 3, first.up) || camera.near_plane != first.near_plane) return text;
-  for (int i = 0; i < 4; ++i) text.erase(text.rfind(','));
-  return text;
-}
-
-std::vector<std::pair<std::string, std::string>> settings_words(const Settings& s) {
-  return {{"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
-          {"shading", enum_text(s.shading)},
-          {"shadows", enum_text(s.shadows)},
-          {"reflections", enum_text(s.reflections)},
-          {"max_bounces", std::to_string(s.max_bounces)},
-          {"visibility", enum_text(s.visibility)},
-          {"filter", enum_text(s.filter)},
-          {"transparency", enum_text(s.transparency)},
-          {"culling", enum_text(s.culling)},
-          {"textures", s.textures ? "on" : "off"},
-          {"bump", s.bump ? "on" : "off"}};
 }
 
 }  // namespace spanray::demo

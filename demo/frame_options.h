@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "command.h"
-#include "spanray/camera.h"
-#include "spanray/scene.h"
-#include "spanray/settings.h"
+#include "job.h"
 
 namespace spanray::demo {
-
-// The scene with what the command line put over its settings.
-struct Job {
-  Scene scene;
-  Camera camera;
-  Settings settings;
-  std::vector<std::string> messages;  // of the loader
-};
 
 // What --camera gives as numbers: ex,ey,ez,tx,ty,tz,fovy, then perhaps ux,uy,uz, then perhaps near.
 struct CameraNumbers {
@@ -36,8 +26,9 @@ class FrameOptions {
   void add_to(CLI::App& command);
 
   const std::string& scene_path() const { return scene_path_; }
+  Settings settings_over(Settings settings) const;  // with the options applied
   // Loads the scene and applies the options. Errors: of the loader. Throws UsageError where the scene lacks the camera named.
-  Result<Job> load() const;
+  Result<Job> load(const LoadProgress& progress = {}) const;
 
  private:
   template <class E> void add_word(CLI::App& command, const std::string& name, E Settings::*field, const std::string& help,
@@ -50,13 +41,5 @@ class FrameOptions {
   bool strict_ = false, allow_outside_ = false;
   std::vector<std::function<void(Settings&)>> changes_;
 };
-
-// "ex,ey,ez,tx,ty,tz,fovy,ux,uy,uz,near": --camera makes the very same camera of it.
-std::string camera_text(const Camera& camera);
-// The same without up and near, where they are those of the scene's first camera.
-std::string short_camera_text(const Camera& camera, const Scene& scene);
-
-// Key and value of every setting that can change the picture, in words: for metadata, statistics and messages.
-std::vector<std::pair<std::string, std::string>> settings_words(const Settings& settings);
 
 }  // namespace spanray::demo

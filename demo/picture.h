@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "core/hash.h"
-#include "frame_options.h"
+#include "job.h"
 #include "spanray/image.h"
 #include "spanray/stats.h"
+#include "view.h"
 
 namespace spanray::demo {
 
@@ -17,15 +18,17 @@ inline constexpr const char* kTextContract = "numeric_contract";
 inline constexpr const char* kTextScene = "scene_hash";
 inline constexpr const char* kTextCamera = "camera";
 inline constexpr const char* kTextSettings = "settings";
+inline constexpr const char* kTextView = "view";
 
-inline std::vector<std::pair<std::string, std::string>> picture_text(const Job& job) {
+inline std::vector<std::pair<std::string, std::string>> picture_text(const Job& job, View view = View::kColor) {
   std::string settings;
   for (const auto& [key, value] : settings_words(job.settings)) settings += (settings.empty() ? "" : " ") + key + "=" + value;
   return {{kTextVersion, SPANRAY_VERSION},
           {kTextContract, std::to_string(kNumericContract)},
           {kTextScene, hash_text(job.scene.hash())},
           {kTextCamera, camera_text(job.camera)},
-          {kTextSettings, settings}};
+          {kTextSettings, settings},
+          {kTextView, view_text(view)}};
 }
 
 // Of width, height and the primitive of every pixel.

@@ -10,6 +10,7 @@
 #include "frame_options.h"
 #include "image/pfm.h"
 #include "picture.h"
+#include "spanray/settings_text.h"
 #include "stats_json.h"
 
 namespace spanray::demo {
@@ -20,6 +21,7 @@ constexpr int kMaxFrames = 1000000;
 struct RenderOptions {
   FrameOptions frame;
   std::string out, stats, ladder, radiance, depth;
+  View view = View::kColor;
   int frames = 1, warmup = 0;
   bool hash = false, ids_hash = false;
 
@@ -75,6 +77,7 @@ Result<Measurement> measure(const Job& job, const RenderOptions& options, Frameb
     request.radiance = !options.radiance.empty();
     request.depth = !options.depth.empty();
     request.primitive = options.ids_hash;
+    add_request(options.view, request);
     // Only the last frame climbs the ladder: hashing costs time that does not belong to the others.
     if (!options.ladder.empty() && frame + 1 == options.warmup + options.frames) request.ladder = &ladder;
     Result<FrameStats> stats = renderer.render(job.scene, job.camera, job.settings, picture, request);
@@ -85,11 +88,12 @@ Result<Measurement> measure(const Job& job, const RenderOptions& options, Frameb
   return measured;
 }
 
-Result<void> write_outputs(const Job& job, const RenderOptions& options, const Framebuffer& picture, const Ladder& ladder,
-                           const Measurement& measured) {
+// shown: the picture, or the view of it that was asked for.
+Result<void> write_outputs(const Job& job, const RenderOptions& options, const Framebuffer& picture, const Image& shown,
+                           const Ladder& ladder, const Measurement& measured) {
   const int width = picture.color.width, height = picture.color.height;
   if (!options.out.empty())
-    if (auto done = write_png(options.out, picture.color, picture_text(job)); !done) return done;
+    if (auto done = write_png(options.out, shown, picture_text(job, options.view)); !done) return done;
   if (!options.radiance.empty())
     if (auto done = write_pfm(options.radiance, FloatImage{width, height, picture.radiance}); !done) return done;
   if (!options.depth.empty())
@@ -97,7 +101,7 @@ Result<void> write_outputs(const Job& job, const RenderOptions& options, const F
   if (!options.ladder.empty())
     if (auto done = ladder.write_json(options.ladder); !done) return done;
   if (options.stats.empty()) return {};
-  const std::string stats = stats_json(job, measured, hash_image(picture.color)).dump(2) + "\n";
+  const std::string stats = stats_json(job, measured, hash_image(shown)).dump(2) + "\n";
   if (options.stats != "-") return write_file_atomic(options.stats, stats);
   std::fputs(stats.c_str(), stdout);
   return {};
@@ -113,8 +117,10 @@ int render(const RenderOptions& options) {
   Result<Measurement> measured = measure(job.value(), options, picture, ladder);
   if (!measured) return fail(measured.error());
   for (const std::string& text : measured.value().frames.back().warnings) message("warning: " + text);
-  if (auto written = write_outputs(job.value(), options, picture, ladder, measured.value()); !written) return fail(written.error());
-  if (options.hash) std::printf("%s\n", hash_text(hash_image(picture.color)).c_str());
+  const Image shown = view_picture(options.view, job.value().scene, job.value().camera, picture);
+  if (auto written = write_outputs(job.value(), options, picture, shown, ladder, measured.value()); !written)
+    return fail(written.error());
+  if (options.hash) std::printf("%s\n", hash_text(hash_image(shown)).c_str());
   if (options.ids_hash) std::printf("%s\n", hash_text(hash_ids(picture)).c_str());
   return kDone;
 }
@@ -126,6 +132,15 @@ void add_render(CLI::App& app, Run& run) {
   auto options = std::make_shared<RenderOptions>();
   options->frame.add_to(*command);
   command->add_option("--out", options->out, "The picture")->type_name("F.png");
+  const auto view = [options](const std::string& word) {
+    std::vector<std::string> known;
+    for (const ViewWord& entry : view_words()) known.emplace_back(entry.name);
+    const std::optional<View> found = view_from_text(word);
+    if (!found)
+      throw CLI::ValidationError("--view", "'" + word + "' is not one of " + view_choices() + did_you_mean(word, known));
+    options->view = *found;
+  };
+  command->add_option_function<std::string>("--view", view, "What the picture shows")->type_name(view_choices());
   command->add_option("--frames", options->frames, "Frames to render and measure")->check(CLI::Range(1, kMaxFrames))->type_name("N");
   command->add_option("--warmup", options->warmup, "Frames before them, not measured")->check(CLI::Range(0, kMaxFrames))->type_name("N");
   command->add_option("--stats", options->stats, "Times, counts, plan; - for standard output")->type_name("F.json");

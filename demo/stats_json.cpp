@@ -1,25 +1,11 @@
 #include "stats_json.h"
 
-#include <algorithm>
-
+#include "command.h"
 #include "core/hash.h"
 
 namespace spanray::demo {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-double percentile_95(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[(values.size() * 95 + 99) / 100 - 1];
-}
 
 Json plan_json(const std::vector<PlanLine>& plan) {
   Json lines = Json::array();

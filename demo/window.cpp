@@ -2,6 +2,9 @@
 
 #include <SDL.h>
 #include <cstdlib>
+#include <optional>
+
+#include "ui.h"
 
 namespace spanray::demo {
 
@@ -12,8 +15,10 @@ struct Window::Impl {
   SDL_Texture* texture = nullptr;
   int texture_width = 0, texture_height = 0;
   bool look_toggled = false, look_held = false;
+  std::optional<Ui> ui;
 
   ~Impl() {
+    ui.reset();
     if (texture != nullptr) SDL_DestroyTexture(texture);
     if (renderer != nullptr) SDL_DestroyRenderer(renderer);
     if (window != nullptr) SDL_DestroyWindow(window);
@@ -39,6 +44,14 @@ bool shows_nothing() {
   return (name.empty() || name == "dummy" || name == "offscreen" || name == "evdev") && std::getenv("SDL_VIDEODRIVER") == nullptr;
 }
 
+// Digits by place, too: they need Shift on French keyboards. Other keys by their letter.
+std::string key_name(const SDL_Keysym& key) {
+  if (key.scancode == SDL_SCANCODE_0) return "0";
+  if (key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_9)
+    return std::string(1, static_cast<char>('1' + (key.scancode - SDL_SCANCODE_1)));
+  return SDL_GetKeyName(key.sym);
+}
+
 }  // namespace
 
 Window::Window() : impl_(std::make_unique<Impl>()) {}
@@ -59,6 +72,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   if (w.window == nullptr) return display_error("cannot open a window");
   w.renderer = SDL_CreateRenderer(w.window, -1, SDL_RENDERER_SOFTWARE);
   if (w.renderer == nullptr) return display_error("cannot draw into the window");
+  w.ui.emplace(w.window, w.renderer);
   return result;
 }
 
@@ -74,7 +88,9 @@ int Window::height() const {
   return h;
 }
 
-Result<void> Window::show(const Image& picture) {
+void Window::resize(int width, int height) { SDL_SetWindowSize(impl_->window, width, height); }
+
+Result<void> Window::set_picture(const Image& picture) {
   Impl& w = *impl_;
   if (w.texture == nullptr || w.texture_width != picture.width || w.texture_height != picture.height) {
     if (w.texture != nullptr) SDL_DestroyTexture(w.texture);
@@ -85,16 +101,19 @@ Result<void> Window::show(const Image& picture) {
   }
   if (SDL_UpdateTexture(w.texture, nullptr, picture.rgba.data(), picture.width * 4) != 0)
     return display_error("cannot draw into the window");
-  show_again();
   return {};
 }
 
-void Window::show_again() {
+void Window::draw(const std::function<void()>& ui) {
   Impl& w = *impl_;
   SDL_SetRenderDrawColor(w.renderer, 0, 0, 0, 255);
   SDL_RenderClear(w.renderer);
   const SDL_Rect whole = {0, 0, w.texture_width, w.texture_height};
   if (w.texture != nullptr) SDL_RenderCopy(w.renderer, w.texture, nullptr, &whole);
+  if (ui)
+    w.ui->draw(width(), height(), !w.look(), ui);
+  else
+    w.ui->clear();
   SDL_RenderPresent(w.renderer);
 }
 
@@ -106,6 +125,8 @@ void Window::set_look(bool look) {
 }
 
 void Window::Impl::handle(const SDL_Event& event, Input& input) {
+  input.any = true;
+  if (!look()) ui->handle(event);
   switch (event.type) {
     case SDL_QUIT: input.quit = true; break;
     case SDL_WINDOWEVENT:
@@ -113,13 +134,24 @@ void Window::Impl::handle(const SDL_Event& event, Input& input) {
       if (event.window.event == SDL_WINDOWEVENT_EXPOSED) input.exposed = true;
       break;
     case SDL_KEYDOWN:
-      if (event.key.repeat == 0) input.pressed.emplace_back(SDL_GetKeyName(event.key.keysym.sym));
+      if (event.key.repeat == 0) input.pressed.emplace_back(key_name(event.key.keysym));
       break;
     case SDL_MOUSEBUTTONDOWN:
-    case SDL_MOUSEBUTTONUP:
-      look_held = event.type == SDL_MOUSEBUTTONDOWN;
+      if (!look() && ui->covers(event.button.x, event.button.y)) break;
+      input.clicked = look_held = true;
       update_look();
       break;
+    case SDL_MOUSEBUTTONUP:
+      if (!look_held) break;
+      look_held = false;
+      update_look();
+      break;
+    case SDL_MOUSEWHEEL: {
+      int x = 0, y = 0;
+      SDL_GetMouseState(&x, &y);
+      if (look() || !ui->covers(x, y)) input.wheel += event.wheel.y;
+      break;
+    }
     case SDL_MOUSEMOTION:
       if (look()) input.mouse_dx += event.motion.xrel, input.mouse_dy += event.motion.yrel;
       break;
@@ -133,12 +165,13 @@ Input Window::wait(int wait_ms) {
   // Not SDL_WaitEventTimeout: on X11 it wakes itself up through a second connection, whose message may reach the server after
   // this window is gone, and the program then ends with BadWindow (SDL 2.26).
   const Uint64 end = SDL_GetTicks64() + static_cast<Uint64>(wait_ms);
-  bool any = false;
   for (;;) {
-    while (SDL_PollEvent(&event) != 0) impl_->handle(event, input), any = true;
-    if (any || SDL_GetTicks64() >= end) break;
+    while (SDL_PollEvent(&event) != 0) impl_->handle(event, input);
+    if (input.any || SDL_GetTicks64() >= end) break;
     SDL_Delay(kPollMs);
   }
+  input.look = impl_->look();
+  if (impl_->ui->holds_input()) return input;
   const Uint8* held = SDL_GetKeyboardState(nullptr);
   const auto axis = [held](SDL_Scancode plus, SDL_Scancode minus) { return int{held[plus]} - int{held[minus]}; };
   // By place on the keyboard, not by letter: WASD is ZQSD in France.
@@ -146,7 +179,6 @@ Input Window::wait(int wait_ms) {
   input.move_up = axis(SDL_SCANCODE_E, SDL_SCANCODE_Q);
   input.move_forward = axis(SDL_SCANCODE_W, SDL_SCANCODE_S);
   input.fast = held[SDL_SCANCODE_LSHIFT] != 0 || held[SDL_SCANCODE_RSHIFT] != 0;
-  input.look = impl_->look();
   return input;
 }
 

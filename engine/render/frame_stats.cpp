@@ -12,6 +12,8 @@ void resize_output(const Settings& s, const FrameRequest& request, Framebuffer& 
   out.radiance.resize(request.radiance ? 3 * pixels : 0);
   out.depth.resize(request.depth ? pixels : 0);
   out.primitive.resize(request.primitive ? pixels : 0);
+  out.normal.resize(request.normal ? 3 * pixels : 0);
+  out.uv.resize(request.uv ? 2 * pixels : 0);
 }
 
 void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, int threads, FrameCounts& counts, FrameStats& stats) {

@@ -187,6 +187,28 @@ void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
   }
 }
 
+// Normals and texture coordinates of a chunk's opaque surfaces, where the caller asked for them.
+void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk) {
+  const size_t width = static_cast<size_t>(job.frame.grid.width), columns = static_cast<size_t>(chunk.columns);
+  for (int y = chunk.y0; y < chunk.y1; ++y) {
+    const size_t first = static_cast<size_t>(y) * width + static_cast<size_t>(chunk.x0);
+    if (job.request.normal) std::fill_n(job.out.normal.begin() + static_cast<ptrdiff_t>(3 * first), 3 * columns, 0.0f);
+    if (job.request.uv) std::fill_n(job.out.uv.begin() + static_cast<ptrdiff_t>(2 * first), 2 * columns, 0.0f);
+  }
+  const SurfaceBatch& s = level.surfaces;
+  const SceneData& scene = *job.frame.scene;
+  for (int i = 0; i < s.count; ++i) {
+    const size_t pixel = static_cast<size_t>(s.pixel[i] >> 16) * width + (s.pixel[i] & 0xffff);
+    const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
+    if (job.request.normal)
+      for (size_t k = 0; k < 3; ++k) job.out.normal[3 * pixel + k] = s.normal[k][i];
+    if (job.request.uv)
+      for (size_t k = 0; k < 2; ++k)
+        job.out.uv[2 * pixel + k] = s.weight[0][i] * scene.vertices[vertex[0]].uv[k] + s.weight[1][i] * scene.vertices[vertex[1]].uv[k] +
+                                    s.weight[2][i] * scene.vertices[vertex[2]].uv[k];
+  }
+}
+
 // Radiance of a chunk -> bytes, and the arrays that the caller asked for.
 void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
   const StageTimer timer(w, TileStage::kEncode);
@@ -203,6 +225,7 @@ void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const C
       if (job.request.primitive) job.out.primitive[pixel + i] = level.primitive[slot + i];
     }
   }
+  if (job.request.normal || job.request.uv) write_surfaces(job, level, chunk);
   if (job.request.ladder != nullptr) mix_chunk(*job.request.ladder, job, level);
 }
 

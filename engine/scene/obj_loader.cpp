@@ -8,6 +8,7 @@
 #include "scene/mtl_library.h"
 #include "scene/obj_mesh.h"
 #include "scene/path_finder.h"
+#include "scene/progress.h"
 #include "scene/scene_builder.h"
 #include "scene/texture_loader.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr uint64_t kMostObjBytes = (uint64_t{1} << 31) - 1;
 constexpr uint64_t kMostMtlBytes = uint64_t{1} << 26;
 constexpr size_t kMostLibraries = 256;
+constexpr size_t kFacesPerReport = 16384;
 constexpr int64_t kTriangulationBudget = 50'000'000;  // point tests, about a quarter of a second
 
 using MaterialIndex = std::unordered_map<std::string, uint32_t>;
@@ -29,8 +31,9 @@ int32_t* slot_of(Material& m, MtlMap map) {
 
 class MaterialLoader {
  public:
-  MaterialLoader(const std::string& obj, const LoadOptions& options, SceneData& scene, Messages& messages)
+  MaterialLoader(const std::string& obj, const LoadOptions& options, SceneData& scene, Messages& messages, const Progress& progress)
       : obj_(obj),
+        progress_(progress),
         folder_(folder_of(obj)),
         finder_(folder_, options.allow_outside),
         textures_(finder_, scene, messages),
@@ -74,7 +77,11 @@ class MaterialLoader {
     if (!read_.try_emplace(path, true).second) return;
     const Result<std::string> text = read_text_file(path, kMostMtlBytes);
     if (!text) return messages_.warn(path, 0, "material library: " + text.error().message);
-    for (const MtlMaterial& mtl : read_mtl(text.value(), path, messages_)) add(mtl, path);
+    const std::vector<MtlMaterial> materials = read_mtl(text.value(), path, messages_);
+    for (size_t i = 0; i < materials.size(); ++i) {
+      if (!progress_("decoding textures", static_cast<double>(i) / static_cast<double>(materials.size()))) return;
+      add(materials[i], path);
+    }
   }
 
   void add(const MtlMaterial& mtl, const std::string& path) {
@@ -99,6 +106,7 @@ class MaterialLoader {
   }
 
   const std::string& obj_;
+  const Progress& progress_;
   std::string folder_;
   PathFinder finder_;
   TextureLoader textures_;
@@ -132,12 +140,15 @@ struct Soup {
 };
 
 Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::string& file,
-               Messages& messages) {
+               Messages& messages, const Progress& progress) {
   Soup soup;
   soup.triangles.reserve(mesh.faces.size());
   int64_t budget = kTriangulationBudget;
   std::vector<uint32_t> corners;
   for (const ObjFace& face : mesh.faces) {
+    const size_t index = static_cast<size_t>(&face - mesh.faces.data());
+    if (index % kFacesPerReport == 0 && !progress("cutting polygons", static_cast<double>(index) / static_cast<double>(mesh.faces.size())))
+      break;
     if (soup.first_unusable_line == 0 && !has_usable_positions(mesh, face)) soup.first_unusable_line = face.line;
     corners.clear();
     triangulate(mesh.positions.data(), &mesh.corners[face.first_corner], face.corner_count, budget, corners);
@@ -165,16 +176,19 @@ void report(const BuildReport& r, int unusable_line, const std::string& file, Me
 }  // namespace
 
 Result<void> load_obj(const std::string& path, const LoadOptions& options, SceneData& scene, Messages& messages) {
+  const Progress progress(options.progress);
+  const Error stopped{kStopMessage, path};
+  if (!progress("opening", 0)) return stopped;
   const Result<std::string> text = read_text_file(path, kMostObjBytes);
   if (!text) return text.error();
-  Result<ObjMesh> read = read_obj(text.value(), path, messages);
+  Result<ObjMesh> read = read_obj(text.value(), path, messages, progress);
   if (!read) return read.error();
   ObjMesh& mesh = read.value();
   if (mesh.libraries.size() > kMostLibraries)
     return Error{"more than " + std::to_string(kMostLibraries) + " mtllib statements", path,
                  mesh.libraries[kMostLibraries].line};
 
-  MaterialLoader materials(path, options, scene, messages);
+  MaterialLoader materials(path, options, scene, messages, progress);
   for (const ObjNamed& library : mesh.libraries) materials.library(library);
   std::vector<uint32_t> material_of_used(mesh.used_materials.size(), 0);
   std::vector<bool> has_faces(mesh.used_materials.size(), false);
@@ -183,10 +197,12 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
     if (has_faces[i]) material_of_used[i] = materials.find(mesh.used_materials[i]);
   if (scene.materials.empty()) materials.find({"", 0});
 
+  if (!progress("smoothing normals", 0)) return stopped;
   double sine = 0, cosine = 0;
   sin_cos(options.crease_angle_degrees * (kPi / 180), &sine, &cosine);
   add_missing_normals(mesh, cosine, path, messages);
-  const Soup soup = make_soup(mesh, material_of_used, path, messages);
+  const Soup soup = make_soup(mesh, material_of_used, path, messages, progress);
+  if (!progress("merging vertices", 0)) return stopped;
   const Result<BuildReport> built = build_geometry(soup.triangles, scene);
   if (!built) return Error{built.error().message, path};
   report(built.value(), soup.first_unusable_line, path, messages);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/progress.h"
 #include "scene/scene_builder.h"
 #include "scene/text_input.h"
 #include "spanray/result.h"
@@ -38,7 +39,7 @@ struct ObjMesh {
 
 // Reads OBJ text. Every index of the result is in range. Errors name `file` and the line: an index out of range or zero, a word
 // that is no number, too few coordinates, binary data, a text without any OBJ statement.
-Result<ObjMesh> read_obj(std::string_view text, const std::string& file, Messages& messages);
+Result<ObjMesh> read_obj(std::string_view text, const std::string& file, Messages& messages, const Progress& progress = {});
 
 // Unit normals of all corners that have none, as indices into mesh.normals (appended; never NaN but where positions are): the
 // mean of the faces around a position weighted by their angles there (Thuermer and Wuethrich 1998, "Computing Vertex Normals

@@ -44,8 +44,8 @@ bool digits_and_signs(std::string_view line) {
 // Hands an OBJ text to an istream line by line: only statements that build polygons, and only when every word of them is right.
 class Guard : public std::streambuf {
  public:
-  Guard(std::string_view text, const std::string& file, ObjMesh& mesh, Messages& messages)
-      : lines_(text), file_(file), mesh_(mesh), messages_(messages) {}
+  Guard(std::string_view text, const std::string& file, ObjMesh& mesh, Messages& messages, const Progress& progress)
+      : lines_(text), bytes_(static_cast<double>(text.size())), file_(file), mesh_(mesh), messages_(messages), progress_(progress) {}
   int line() const { return lines_.line_number(); }
   const float* numbers() const { return numbers_; }  // of the v, vn or vt line that was handed out last
   uint32_t smoothing() const { return smoothing_; }
@@ -74,7 +74,9 @@ class Guard : public std::streambuf {
   int_type underflow() override {
     std::string_view line;
     while (!failed_ && lines_.next(&line)) {
-      if (!vet(line)) continue;
+      bytes_read_ += static_cast<double>(line.size() + 1);
+      if (++lines_read_ % kLinesPerReport == 0 && !progress_("reading the mesh", bytes_read_ / bytes_)) fail(kStopMessage);
+      if (failed_ || !vet(line)) continue;
       if (failed_) break;
       current_.push_back('\n');
       setg(current_.data(), current_.data(), current_.data() + current_.size());
@@ -178,10 +180,15 @@ class Guard : public std::streambuf {
       messages_.warn(file_, line(), "smoothing group " + quoted(word) + " is not a number; ignored");
   }
 
+  static constexpr uint64_t kLinesPerReport = 8192;
+
   LineReader lines_;
+  double bytes_, bytes_read_ = 0;
+  uint64_t lines_read_ = 0;
   const std::string& file_;
   ObjMesh& mesh_;
   Messages& messages_;
+  const Progress& progress_;
   std::string current_;
   float numbers_[3] = {};
   uint32_t smoothing_ = kSmoothingNotGiven;
@@ -260,10 +267,10 @@ Result<void> check_indices(const ObjMesh& mesh, const std::string& file) {
 
 }  // namespace
 
-Result<ObjMesh> read_obj(std::string_view text, const std::string& file, Messages& messages) {
+Result<ObjMesh> read_obj(std::string_view text, const std::string& file, Messages& messages, const Progress& progress) {
   ObjMesh mesh;
   mesh.used_materials.push_back({"", 0});
-  Guard guard(text, file, mesh, messages);
+  Guard guard(text, file, mesh, messages, progress);
   Builder builder{mesh, guard};
   std::istream stream(&guard);
   stream.exceptions(std::ios::badbit);  // or an exception inside the guard would look like the end of the file

@@ -19,7 +19,10 @@ struct Framebuffer {
   Image color;
   std::vector<float> radiance;      // linear RGB, 3 * width * height
   std::vector<float> depth;         // reversed z: near / view depth, 0 = background
+  // Of the nearest opaque surface, translucent layers left out:
   std::vector<uint32_t> primitive;  // triangle index, 0xffffffff = background
+  std::vector<float> normal;        // shading normal in world space, bump maps included, unit; 3 * width * height, 0 = background
+  std::vector<float> uv;            // texture coordinates of the vertices, interpolated; 2 * width * height, 0 = background
 };
 
 // Writes atomically: to a temporary file beside it, then renamed; never a half-written file. text: tEXt chunks (key, value).

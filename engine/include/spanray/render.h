@@ -12,7 +12,8 @@ namespace spanray {
 class Ladder;  // engine/frame/ladder.h: the hash ladder
 
 struct FrameRequest {
-  bool radiance = false, depth = false, primitive = false;  // which arrays of Framebuffer to fill besides color
+  // Which arrays of Framebuffer to fill besides color.
+  bool radiance = false, depth = false, primitive = false, normal = false, uv = false;
   Ladder* ladder = nullptr;
 };
 

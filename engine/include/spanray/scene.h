@@ -1,6 +1,7 @@
 // A loaded scene: immutable, shared, checked.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,10 +32,15 @@ class Scene {
   std::shared_ptr<const SceneData> data_;
 };
 
+// Called while a scene loads, from the thread that loads it: what is being done, and how much of that is done (0 to 1). False:
+// loading ends with an error as soon as it can.
+using LoadProgress = std::function<bool(const char* stage, double fraction)>;
+
 struct LoadOptions {
   double crease_angle_degrees = 60;  // faces meeting at more than this keep a hard edge where the file has no normals
   bool allow_outside = false;        // material libraries and textures may lie outside the OBJ's folder
   bool camera_given = false;         // the caller has a camera of its own: that the files give none is not worth a message
+  LoadProgress progress = {};        // may be empty
 };
 
 struct LoadedScene {

@@ -1,0 +1,244 @@
+#include "panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/parallel.h"
+#include "simd/isa.h"
+#include "spanray/settings_text.h"
+#include "stage_times.h"
+
+namespace spanray::demo {
+namespace {
+
+constexpr float kMargin = 8, kWidth = 392, kLabels = 104;
+constexpr ImU32 kAmber = IM_COL32(240, 176, 82, 255), kDark = IM_COL32(24, 22, 18, 255), kBar = IM_COL32(92, 138, 176, 255),
+                kTrack = IM_COL32(34, 38, 44, 255);
+
+void label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", text);
+  ImGui::SameLine(kLabels);
+}
+
+// A button of a row of choices; goes to the next line where it does not fit. True if it was clicked.
+bool choice(const char* text, bool chosen, bool first) {
+  const float width = ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
+  if (!first) {
+    // With a scroll bar or without: rows must not jump when it comes.
+    const float right = ImGui::GetWindowPos().x + kWidth - ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize;
+    if (ImGui::GetItemRectMax().x + 2 + width <= right)
+      ImGui::SameLine(0, 2);
+    else
+      ImGui::SetCursorPosX(kLabels);
+  }
+  if (chosen) {
+    for (const int color : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}) ImGui::PushStyleColor(color, kAmber);
+    ImGui::PushStyleColor(ImGuiCol_Text, kDark);
+  }
+  const bool clicked = ImGui::Button(text);
+  if (chosen) ImGui::PopStyleColor(4);
+  return clicked;
+}
+
+template <class E> bool enum_row(const char* name, E& value, bool (*usable)(E) = nullptr) {
+  bool changed = false, first = true;
+  ImGui::PushID(name);
+  label(name);
+  for (const EnumName<E>& entry : enum_names<E>()) {
+    if (usable != nullptr && !usable(entry.value)) continue;
+    if (choice(entry.name, value == entry.value, first) && value != entry.value) value = entry.value, changed = true;
+    first = false;
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+bool on_off(const char* name, bool& value, bool first) {
+  if (!choice(name, value, first)) return false;
+  value = !value;
+  return true;
+}
+
+bool number_row(const char* name, int& value, int low, int high, const char* format) {
+  ImGui::PushID(name);
+  label(name);
+  ImGui::SetNextItemWidth(-1);
+  const bool changed = ImGui::SliderInt("##value", &value, low, high, format, ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopID();
+  return changed;
+}
+
+bool draw_switches(WalkSession& session) {
+  Settings& s = session.settings();
+  bool changed = false, first = true;
+  label("view");
+  for (const ViewWord& word : view_words()) {
+    if (choice(word.name, session.view() == word.view, first)) session.view() = word.view, changed = true;
+    first = false;
+  }
+  changed |= enum_row("shading", s.shading);
+  changed |= enum_row("shadows", s.shadows);
+  changed |= enum_row("reflections", s.reflections);
+  changed |= number_row("bounces", s.max_bounces, 0, 8, "%d");
+  changed |= enum_row("visibility", s.visibility);
+  changed |= enum_row("filter", s.filter);
+  changed |= enum_row("transparency", s.transparency);
+  changed |= enum_row("culling", s.culling);
+  label("maps");
+  changed |= on_off("textures", s.textures, true);
+  changed |= on_off("bump", s.bump, false);
+  changed |= number_row("threads", s.threads, 0, Parallel::available(), s.threads == 0 ? "one per processor" : "%d");
+  changed |= enum_row<Isa>("instructions", s.isa, [](Isa isa) { return isa == Isa::kAuto || isa_supported(isa); });
+  return changed;
+}
+
+// The median of each stage over the last frames, as bars of the frame's own.
+void draw_times(const WalkSession& session) {
+  const std::vector<StageTimes>& recent = session.recent();
+  if (recent.empty()) return;
+  const auto middle = [&recent](double StageTimes::*time) {
+    std::vector<double> values;
+    for (const StageTimes& t : recent) values.push_back(t.*time);
+    return median(std::move(values));
+  };
+  const double frame = middle(&StageTimes::frame);
+  const FrameStats& stats = session.shown().stats;
+  ImGui::Text("%.1f ms", frame);
+  ImGui::SameLine(kLabels);
+  ImGui::Text("%.1f frames/s", frame > 0 ? 1000 / frame : 0.0);
+  ImGui::TextDisabled("%dx%d, %s, %d thread%s; median of %zu frame%s", session.shown().picture.width, session.shown().picture.height,
+                      stats.isa.c_str(), stats.threads, stats.threads == 1 ? "" : "s", recent.size(), recent.size() == 1 ? "" : "s");
+  ImGui::Spacing();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const auto& stage : kStages) {
+    const double ms = middle(stage.time);
+    if (stage.time == &StageTimes::frame || stage.time == &StageTimes::bvh_build) continue;
+    ImGui::TextDisabled("%s", stage.name);
+    char text[32];
+    std::snprintf(text, sizeof text, "%8.2f", ms);
+    ImGui::SameLine(kLabels - 12);
+    ImGui::TextUnformatted(text);
+    ImGui::SameLine(kLabels + 56);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float whole = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() - 4;
+    const float part = frame > 0 ? static_cast<float>(std::clamp(ms / frame, 0.0, 1.0)) * whole : 0;
+    draw.AddRectFilled({at.x, at.y + 2}, {at.x + whole, at.y + 2 + height}, kTrack);
+    if (part >= 1) draw.AddRectFilled({at.x, at.y + 2}, {at.x + part, at.y + 2 + height}, kBar);
+    ImGui::Dummy({whole, ImGui::GetTextLineHeight()});
+  }
+  if (stats.ms.bvh_build > 0) ImGui::TextDisabled("trees for rays: %.0f ms, once; not part of a frame", stats.ms.bvh_build);
+}
+
+void draw_camera(WalkSession& session, const PanelInput& input, PanelAction& action) {
+  const Camera& c = input.camera;
+  const auto line = [](const char* name) { ImGui::TextDisabled("%s", name), ImGui::SameLine(kLabels); };
+  line("eye");
+  ImGui::Text("%.3f  %.3f  %.3f", c.eye[0], c.eye[1], c.eye[2]);
+  line("target");
+  ImGui::Text("%.3f  %.3f  %.3f", c.target[0], c.target[1], c.target[2]);
+  line("angle, near");
+  ImGui::Text("%.2f degrees, %.3g", c.fov_y_degrees, c.near_plane);
+  line("speed");
+  ImGui::Text("%.3g a second", session.speed());
+  label("");
+  if (ImGui::Button("copy for --camera")) ImGui::SetClipboardText(short_camera_text(c, session.scene()).c_str());
+  label("go to");
+  const std::vector<std::string>& names = session.scene().camera_names();
+  for (size_t i = 0; i < names.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (choice(names[i].substr(0, 32).c_str(), false, i == 0)) action.camera = static_cast<int>(i);
+    ImGui::PopID();
+  }
+  if (input.path.empty()) return;
+  label("path");
+  action.play = choice(input.playing ? "stop" : "play", input.playing, true);
+  ImGui::SameLine(0, 4);
+  ImGui::SetNextItemWidth(-1);
+  float seconds = static_cast<float>(input.path_time);
+  if (ImGui::SliderFloat("##path", &seconds, 0, static_cast<float>(input.path.back().time - input.path.front().time), "%.1f s",
+                         ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp))
+    action.path_time = seconds;
+}
+
+void draw_plan(WalkSession& session) {
+  for (const PlanLine& line : session.plan()) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 3;
+    if (line.needed)
+      ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + 7, top + 7}, kAmber);
+    else
+      ImGui::GetWindowDrawList()->AddRect({at.x, top}, {at.x + 7, top + 7}, IM_COL32(90, 95, 104, 255));
+    ImGui::Indent(14);
+    line.needed ? ImGui::TextUnformatted(line.stage.c_str()) : ImGui::TextDisabled("%s", line.stage.c_str());
+    ImGui::Indent(14);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+    ImGui::TextWrapped("%s", line.reason.c_str());
+    ImGui::PopStyleColor();
+    ImGui::Unindent(28);
+  }
+}
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
+
+}  // namespace
+
+PanelAction draw_panel(WalkSession& session, const PanelInput& input) {
+  PanelAction action;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({kMargin, kMargin});
+  ImGui::SetNextWindowSizeConstraints({kWidth, 0}, {kWidth, std::max(60.0f, screen.y - 2 * kMargin)});
+  ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
+  draw_times(session);
+  ImGui::Spacing();
+  if (ImGui::CollapsingHeader("Switches", ImGuiTreeNodeFlags_DefaultOpen)) action.changed = draw_switches(session);
+  if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_camera(session, input, action);
+  if (ImGui::CollapsingHeader("Plan: what this scene needs")) draw_plan(session);
+  ImGui::End();
+  return action;
+}
+
+void draw_help() {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::Begin("keys", nullptr, kFixed);
+  for (const WalkSession::Key& key : WalkSession::keys()) {
+    ImGui::TextUnformatted(key.keys);
+    ImGui::SameLine(kLabels);
+    ImGui::TextDisabled("%s", key.meaning);
+  }
+  ImGui::End();
+}
+
+void draw_hint(const std::string& text) {
+  ImGui::SetNextWindowPos({kMargin, ImGui::GetIO().DisplaySize.y - kMargin}, ImGuiCond_Always, {0, 1});
+  ImGui::Begin("hint", nullptr, kFixed | ImGuiWindowFlags_NoMouseInputs);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+void draw_progress(const std::string& scene, const std::string& stage, double fraction, double seconds) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float width = std::clamp(screen.x - 40, 40.0f, 360.0f);
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::Begin("progress", nullptr, (kFixed & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoMouseInputs);
+  ImGui::TextUnformatted(scene.c_str());
+  // Back and forth where nobody knows.
+  const double swing = seconds - 2 * static_cast<int>(seconds / 2);
+  const float from = fraction < 0 ? static_cast<float>(swing < 1 ? swing : 2 - swing) * 0.8f : 0.0f;
+  const float to = fraction < 0 ? from + 0.2f : static_cast<float>(std::clamp(fraction, 0.0, 1.0));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float whole = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, at.y + 2}, {at.x + whole, at.y + 12}, kTrack);
+  draw.AddRectFilled({at.x + from * whole, at.y + 2}, {at.x + to * whole, at.y + 12}, kAmber);
+  ImGui::Dummy({whole, 14});
+  ImGui::TextDisabled("%s, %.0f s   Esc leaves", stage.c_str(), seconds);
+  ImGui::End();
+}
+
+}  // namespace spanray::demo
