@@ -1,5 +1,6 @@
 #include "render/check_request.h"
 
+#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -9,6 +10,12 @@ namespace spanray {
 namespace {
 
 bool finite3(const double* v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+// As short as it can be read back: never 0.000000.
+std::string number_text(double x) {
+  char text[40];
+  return std::string(text, std::to_chars(text, text + sizeof text, x).ptr);
+}
 
 Error out_of_range(const char* what, const std::string& value, const std::string& range) {
   return Error{std::string(what) + " " + value + " is out of range: " + range};
@@ -20,11 +27,11 @@ Result<void> check_camera(const Camera& c) {
     return Error{"the camera's eye and target coincide"};
   // Squares of larger numbers overflow nothing yet, but leave no digits for a picture.
   for (const double x : {c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2]})
-    if (std::fabs(x) > 1e18) return out_of_range("camera coordinate", std::to_string(x), "at most 1e18");
+    if (std::fabs(x) > 1e18) return out_of_range("camera coordinate", number_text(x), "at most 1e18");
   if (!(c.fov_y_degrees >= kMinFovDegrees && c.fov_y_degrees <= kMaxFovDegrees))
-    return out_of_range("field of view", std::to_string(c.fov_y_degrees), "0.01 to 179 degrees");
+    return out_of_range("field of view", number_text(c.fov_y_degrees), "0.01 to 179 degrees");
   if (!(c.near_plane >= 1e-18 && c.near_plane <= 1e18))
-    return out_of_range("near plane", std::to_string(c.near_plane), "1e-18 to 1e18");
+    return out_of_range("near plane", number_text(c.near_plane), "1e-18 to 1e18");
   return {};
 }
 
