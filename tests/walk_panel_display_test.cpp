@@ -104,6 +104,17 @@ TEST_F(WalkPanel, AClickOnASwitchDoesWhatItsKeyDoes) {
   leave();
 }
 
+TEST_F(WalkPanel, TheCameraIsCopiedToTheClipboard) {
+  start(camera_);
+  const std::vector<int> rows = open_panel();
+  ASSERT_GE(rows.size(), 5u);
+  click(8 + 60, rows[0] - 24);  // folds the switches, so that the camera comes up
+  ASSERT_TRUE(until([&] { return amber_rows(screen_->grab(window_)).empty(); }));
+  click(8 + 104 + 40, rows[0] + 96);
+  EXPECT_TRUE(until([&] { return screen_->clipboard() == printed_camera(); })) << screen_->clipboard();
+  leave();
+}
+
 TEST_F(WalkPanel, HelpAppearsInTheWindowAndOnStandardError) {
   const Image picture = rendered(camera_);
   start(camera_);
@@ -165,11 +176,11 @@ class WalkLoading : public WalkPanel {
  protected:
   void SetUp() override {
     WalkPanel::SetUp();
-    scene_ = folder_.file("long.obj");  // many seconds on any machine
+    scene_ = folder_.file("long.obj");  // seconds on any machine
     std::ofstream file(scene_, std::ios::binary);
     std::string lines;
     for (int i = 0; i < 20000; ++i) lines += "v 0.25 1.5 " + std::to_string(i) + "\nvn 0 1 0\nvt 0.5 0.5\n";
-    for (int i = 0; i < 400; ++i) file << lines;
+    for (int i = 0; i < 200; ++i) file << lines;
     file << "f 1 2 3\n";
   }
 };

@@ -95,6 +95,30 @@ class XScreen {
     XSetInputFocus(display_, window, RevertToParent, CurrentTime);
     XSync(display_, False);
   }
+  // Text of the clipboard; empty if there is none, or its owner does not answer within two seconds.
+  std::string clipboard() const {
+    const Window window = XCreateSimpleWindow(display_, DefaultRootWindow(display_), 0, 0, 1, 1, 0, 0, 0);
+    const Atom text = XInternAtom(display_, "UTF8_STRING", False), property = XInternAtom(display_, "SPANRAY_TEST", False);
+    XConvertSelection(display_, XInternAtom(display_, "CLIPBOARD", False), text, property, window, CurrentTime);
+    XEvent event = {};
+    bool answered = false;
+    for (int i = 0; i < 200 && !answered; ++i) {
+      XSync(display_, False);
+      answered = XCheckTypedWindowEvent(display_, window, SelectionNotify, &event) != 0;
+      if (!answered) ::usleep(10000);
+    }
+    std::string result;
+    Atom type = 0;
+    int format = 0;
+    unsigned long items = 0, left = 0;
+    unsigned char* bytes = nullptr;
+    if (answered && event.xselection.property != 0 &&
+        XGetWindowProperty(display_, window, property, 0, 4096, True, text, &type, &format, &items, &left, &bytes) == 0 && bytes != nullptr)
+      result.assign(reinterpret_cast<const char*>(bytes), items);
+    if (bytes != nullptr) XFree(bytes);
+    XDestroyWindow(display_, window);
+    return result;
+  }
   // Real input events through the X test extension, e.g. {"key", "Escape"}. False if xdotool failed.
   bool input(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "xdotool");
