@@ -57,18 +57,16 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
 }
 
 // The slots that hit something, as a batch: shading works on these only.
-void compact_hits(Level& level, bool primary) {
-  int n = 0;
-  level.hits.resize(level.slots, true);
-  level.slot_of_hit.resize(static_cast<size_t>(level.slots));
-  for (int i = 0; i < level.slots; ++i) {
-    if (level.primitive[i] == kNoPrimitive) continue;
-    level.hits.pixel[n] = level.pixel[i];
-    level.hits.ray[n] = static_cast<uint32_t>(i);
-    level.hits.primitive[n] = level.primitive[i];
-    level.slot_of_hit[n++] = static_cast<uint32_t>(i);
-  }
+void compact_hits(TileWorker& w, Level& level, bool primary) {
+  w.order.sort(level.primitive.data(), level.slots, level.slot_of_hit);
+  const int n = static_cast<int>(level.slot_of_hit.size());
   level.hits.resize(n, true);
+  for (int i = 0; i < n; ++i) {
+    const uint32_t slot = level.slot_of_hit[i];
+    level.hits.pixel[i] = level.pixel[slot];
+    level.hits.ray[i] = slot;
+    level.hits.primitive[i] = level.primitive[slot];
+  }
   level.hits.rays = primary ? nullptr : &level.rays;
 }
 
@@ -76,7 +74,7 @@ void compact_hits(Level& level, bool primary) {
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
   {
     const StageTimer timer(w, TileStage::kShade);
-    compact_hits(level, primary);
+    compact_hits(w, level, primary);
     resolve_surfaces(job.frame, level.hits, level.surfaces);
   }
   light_surfaces(job, w, level.surfaces, level.hits, primary);
@@ -271,7 +269,7 @@ size_t Level::memory_bytes() const {
 size_t TileWorker::memory_bytes() const {
   size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
                  surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
-                 fragment_surfaces.memory_bytes();
+                 fragment_surfaces.memory_bytes() + order.memory_bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes();
   for (const auto& level : levels) bytes += level->memory_bytes();
   return bytes;

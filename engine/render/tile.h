@@ -6,6 +6,7 @@
 
 #include "frame/frame.h"
 #include "ray/bvh.h"
+#include "render/hit_order.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 #include "spanray/render.h"
@@ -47,6 +48,7 @@ struct TileWorker {
   HitBatch fragment_hits;
   AlignedBuffer<int32_t> fragment_slot;
   SurfaceBatch fragment_surfaces;
+  HitOrder order;
   FrameCounts counts;
   std::array<double, kTileStageCount> seconds{};
   size_t memory_bytes() const;
