@@ -39,7 +39,7 @@ F32 mask_opacity(const Frame& frame, const HitLanes& hits, int32_t map, float fa
   const SurfaceLanes s = resolve_lanes(ray, t);
   const DifferentialLanes d = load_differentials(frame, hits);
   const F64 distance = hit_t(s, ray);
-  const UvLanes uv = resolve_uv(scene, t, s, transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal),
+  const UvLanes uv = resolve_uv(frame, t, s, transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal),
                                 transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal));
   UseLanes use = open_use(scene, i32(map), hits.valid, uv);
   use.level_256 = min_(use.level_256, i32(kMaskLastLevel * 256));

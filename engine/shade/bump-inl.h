@@ -21,10 +21,9 @@ struct TangentLanes {
   Mask valid;  // false where the triangle has no area in space or uv, or the normal lies in a tangent
 };
 
-// The part of the gradient orthogonal to n, as a unit vector; direction < 0 where the use mirrors the texture.
-HWY_INLINE V3f tangent(const V3d& gradient, F32 direction, const V3f& n, Mask* valid) {
+// The part of the uv tangent orthogonal to n, as a unit vector; direction < 0 where the use mirrors the texture.
+HWY_INLINE V3f tangent(const V3f& along, F32 direction, const V3f& n, Mask* valid) {
   const V3f zero{F32::zero(), F32::zero(), F32::zero()};
-  const V3f along = unit_or(gradient, zero);  // in double first: gradients of tiny triangles have no square in float
   const V3f flat = unit_or(along - n * dot(along, n), 0x1p-20f, zero);
   *valid = *valid & (dot(flat, flat) > F32::zero());
   return select(direction < F32::zero(), -flat, flat);
@@ -33,9 +32,9 @@ HWY_INLINE V3f tangent(const V3d& gradient, F32 direction, const V3f& n, Mask* v
 HWY_INLINE TangentLanes make_tangents(const SceneData& scene, const UseLanes& use, const UvLanes& uv, const V3f& n) {
   const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
   TangentLanes t;
-  t.valid = (f64(0.0) < uv.area) | (uv.area < f64(0.0));
-  t.u = tangent(uv.gradient_u, gather(reals, use.record + i32(kUseScale)), n, &t.valid);
-  t.v = tangent(uv.gradient_v, gather(reals, use.record + i32(kUseScale + 1)), n, &t.valid);
+  t.valid = first_lanes(kLanes);
+  t.u = tangent(uv.tangent_u, gather(reals, use.record + i32(kUseScale)), n, &t.valid);
+  t.v = tangent(uv.tangent_v, gather(reals, use.record + i32(kUseScale + 1)), n, &t.valid);
   return t;
 }
 

@@ -38,8 +38,8 @@ HWY_INLINE F32 max_abs(const V3f& a) { return max_(abs_(a.x), max_(abs_(a.y), ab
 HWY_INLINE V3f unit_or(const V3f& a, float least_square, const V3f& fallback) {
   const F32 square = dot(a, a);
   const Mask good = square > f32(least_square);
-  const F32 length = sqrt_(select(good, square, f32(1.0f)));
-  return select(good, V3f{a.x / length, a.y / length, a.z / length}, fallback);
+  const F32 inverse = f32(1.0f) / sqrt_(select(good, square, f32(1.0f)));
+  return select(good, V3f{a.x * inverse, a.y * inverse, a.z * inverse}, fallback);
 }
 // Unit vector along a, rounded; `fallback` where a is zero.
 HWY_INLINE V3f unit_or(const V3d& a, const V3f& fallback) {

@@ -135,11 +135,14 @@ HWY_INLINE SurfaceLanes resolve_lanes(const RayLanes& ray, const TriangleLanes& 
 // Bound on each coordinate of to_f32(position) - p, p the nearest point of the triangle: half an ulp for the rounding to float,
 // and the double error, which scales with vertices and distance. It is also the bound on the distance to the exact hit as long as
 // |d . n| >= |d| |n| / 16; for flatter views the hit slides along the triangle, not off it.
-HWY_INLINE F32 position_error(const SurfaceLanes& s, const TriangleLanes& t) {
-  const F32 at = max_abs(to_f32(s.position));
+inline constexpr float kRoundingError = 0x1.01p-24f;
+HWY_INLINE F32 size_error(const TriangleLanes& t, const V3d& from_origin, const V3d& edge1, const V3d& edge2) {
   const F32 around = max_(max_abs(to_f32(t.v0)), max_(max_abs(to_f32(t.v1)), max_abs(to_f32(t.v2)))) +
-                     max_abs(to_f32(s.from_origin)) + max_abs(to_f32(s.edge1)) + max_abs(to_f32(s.edge2));
-  return at * f32(0x1.01p-24f) + (around * f32(0x1p-44f) + f32(0x1p-148f));
+                     max_abs(to_f32(from_origin)) + max_abs(to_f32(edge1)) + max_abs(to_f32(edge2));
+  return around * f32(0x1p-44f) + f32(0x1p-148f);
+}
+HWY_INLINE F32 position_error(const SurfaceLanes& s, const TriangleLanes& t) {
+  return max_abs(to_f32(s.position)) * f32(kRoundingError) + size_error(t, s.from_origin, s.edge1, s.edge2);
 }
 
 // How position moves with a step of one pixel.

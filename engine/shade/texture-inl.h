@@ -8,7 +8,7 @@
 #define SPANRAY_TEXTURE_INL_H_
 #endif
 
-#include "shade/resolve-inl.h"
+#include "shade/point-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -23,14 +23,6 @@ inline constexpr int kUseBase = offsetof(TextureUse, base) / 4, kUseGain = offse
 inline constexpr int kUseMultiplier = offsetof(TextureUse, bump_multiplier) / 4, kUseClamp = offsetof(TextureUse, clamp) / 4;
 inline constexpr int kUseChannel = offsetof(TextureUse, channel) / 4, kTextureOffset = offsetof(Texture, offset) / 4;
 
-// uv of the mesh at the hit, before scale and offset of a use, and how it moves with a pixel step.
-struct UvLanes {
-  F64 u, v;
-  F32 du_dx, dv_dx, du_dy, dv_dy;
-  V3d gradient_u, gradient_v;  // of u and v over position; zero where the triangle has no area
-  F64 area;                    // of the triangle in uv, twice, signed
-};
-
 // One use of a texture in each lane.
 struct UseLanes {
   Mask active;         // lanes that have one; the others read texture 0 and are ignored
@@ -44,30 +36,22 @@ struct UseLanes {
 
 struct RawSample { F32 c[4]; };
 
-// Interpolation is relative to vertex 0, so that equal corners give exactly their value.
-HWY_INLINE F64 interpolate(const TriangleLanes& t, const float* vertices, int k, F64 b1, F64 b2, F64* d1, F64* d2) {
-  const F64 a0 = to_f64(t.vertex[0].real(vertices, k));
-  *d1 = to_f64(t.vertex[1].real(vertices, k)) - a0;
-  *d2 = to_f64(t.vertex[2].real(vertices, k)) - a0;
-  return a0 + b1 * *d1 + b2 * *d2;
-}
-
 // Input: the derivatives of position by a pixel step. db1/dp = cross(e2, n) / |n|^2, db2/dp = cross(n, e1) / |n|^2.
-HWY_INLINE UvLanes resolve_uv(const SceneData& scene, const TriangleLanes& t, const SurfaceLanes& s, const V3d& dpdx,
-                              const V3d& dpdy) {
-  const float* vertices = reinterpret_cast<const float*>(scene.vertices.data());
+HWY_INLINE UvLanes resolve_uv(const Frame& frame, const TriangleLanes& t, const SurfaceLanes& s, const V3d& dpdx, const V3d& dpdy) {
+  const CornerUv c = corner_uv(*frame.scene, t);
   UvLanes uv;
-  F64 du1, du2, dv1, dv2;
-  uv.u = interpolate(t, vertices, 6, s.b1, s.b2, &du1, &du2);
-  uv.v = interpolate(t, vertices, 7, s.b1, s.b2, &dv1, &dv2);
-  uv.area = du1 * dv2 - du2 * dv1;
+  uv.u = c.u0 + s.b1 * c.du1 + s.b2 * c.du2;
+  uv.v = c.v0 + s.b1 * c.dv1 + s.b2 * c.dv2;
   const F64 square = dot(s.normal, s.normal), zero = f64(0.0);
   const F64 scale = select_eq(square, zero, zero, f64(1.0) / select_eq(square, zero, f64(1.0), square));
-  const V3d g1 = cross(s.edge2, s.normal) * scale, g2 = cross(s.normal, s.edge1) * scale;
-  uv.gradient_u = g1 * du1 + g2 * du2;
-  uv.gradient_v = g1 * dv1 + g2 * dv2;
-  uv.du_dx = to_f32(dot(uv.gradient_u, dpdx)), uv.dv_dx = to_f32(dot(uv.gradient_v, dpdx));
-  uv.du_dy = to_f32(dot(uv.gradient_u, dpdy)), uv.dv_dy = to_f32(dot(uv.gradient_v, dpdy));
+  UvGradients g = uv_gradients(c, s.edge1, s.edge2, s.normal);
+  g.u = g.u * scale, g.v = g.v * scale;
+  uv.du_dx = to_f32(dot(g.u, dpdx)), uv.dv_dx = to_f32(dot(g.v, dpdx));
+  uv.du_dy = to_f32(dot(g.u, dpdy)), uv.dv_dy = to_f32(dot(g.v, dpdy));
+  if (frame.plan.bump) {
+    const UvTangents tangents = uv_tangents(c, s.edge1, s.edge2, s.normal);
+    uv.tangent_u = tangents.u, uv.tangent_v = tangents.v;
+  }
   return uv;
 }
 

@@ -248,6 +248,19 @@ HWY_INLINE Mask operator<(F64 a, F64 b) { return to_f32(select_lt(a, b, f64(1.0)
 HWY_INLINE Mask operator>(F64 a, F64 b) { return b < a; }
 HWY_INLINE Mask operator==(F64 a, F64 b) { return to_f32(select_eq(a, b, f64(1.0), f64(0.0))) > F32::zero(); }
 
+// base[index], as gather of floats.
+HWY_INLINE F64 gather(const double* base, I32 index) {
+  F64 r;
+#if HWY_TARGET == HWY_SCALAR
+  r.v[0] = hn::Set(DD(), base[hn::GetLane(index.v)]);
+#else
+  const DDI di;
+  r.v[0] = hn::GatherIndex(DD(), base, hn::PromoteTo(di, hn::LowerHalf(DHI(), index.v)));
+  r.v[1] = hn::GatherIndex(DD(), base, hn::PromoteTo(di, hn::UpperHalf(DHI(), index.v)));
+#endif
+  return r;
+}
+
 // ---- bits of doubles: to take exponents apart and build them ----------------------------------------------------------
 // kLanes 64-bit integers (two's complement, wrapping); lane i corresponds to lane i of F64.
 struct I64 {
