@@ -27,17 +27,22 @@ template <class Visit>
 HWY_INLINE void walk_triangle(const TileGrid& grid, int tile, const ScreenTriangle& t, RowSpans& spans, const Visit& visit) {
   const int tile_x = grid.x0(tile), tile_y = grid.y0(tile);
   scan_triangle(t, tile_y, grid.y1(tile), tile_x, grid.x1(tile), spans);
-  const F64 dx = f64(t.depth_dx);
+  // What the column adds, for each vector of the tile that the triangle may touch: computed once for all rows.
+  F64 column_depth[kTileSize / kLanes];
+  int low = grid.x1(tile), high = tile_x;
+  for (int k = 0; k < spans.count; ++k) low = std::min(low, spans.x0[k]), high = std::max(high, spans.x1[k]);
+  for (int x = low & -kLanes; x < high; x += kLanes)
+    column_depth[(x - tile_x) / kLanes] = (to_f64(lane_iota(x)) + f64(0.5)) * f64(t.depth_dx);
   const F32 depth_min = f32(t.depth_min), depth_max = f32(t.depth_max);
   for (int k = 0; k < spans.count; ++k) {
     const int x0 = spans.x0[k], x1 = spans.x1[k], y = spans.first + k;
     const F64 row_depth = f64(t.depth0 + (y + 0.5) * t.depth_dy);
     const int row_offset = (y - tile_y) * kTileSize - tile_x;
+    const I32 begin = i32(x0), length = i32(x1 - x0);
     // Vectors are aligned to the tile, so that none reaches past the end of its arrays.
     for (int x = x0 & -kLanes; x < x1; x += kLanes) {
-      const I32 column = lane_iota(x);
-      const Mask inside = !(column < i32(x0)) & (column < i32(x1));
-      const F64 depth = row_depth + (to_f64(column) + f64(0.5)) * dx;
+      const Mask inside = less_unsigned(lane_iota(x) - begin, length);
+      const F64 depth = row_depth + column_depth[(x - tile_x) / kLanes];
       visit(row_offset + x, x, y, inside, clamp_(to_f32(depth), depth_min, depth_max));
     }
   }
@@ -55,6 +60,7 @@ HWY_INLINE void draw_opaque(const Frame& frame, int tile, const ScreenTriangle& 
     const F32 stored = F32::load(out.depth + offset);
     Mask visible = inside & (depth > stored);
     if (masked) visible = ask_accept(frame, t.primitive, x, y, visible);
+    if (!any(visible)) return;
     select(visible, depth, stored).store(out.depth + offset);
     select(visible, primitive, I32::load(out.primitive + offset)).store(out.primitive + offset);
   });

@@ -45,8 +45,8 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   const StageTimer timer(w, TileStage::kRaster);
   if (job.bins != nullptr) {
     const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
-    for (int i = 0; i < level.slots; ++i)
-      level.primitive[i] = w.visible.primitive[(row0 + i / chunk.columns) * kTileSize + i % chunk.columns];
+    for (int row = 0; row < chunk.y1 - chunk.y0; ++row)
+      std::copy_n(w.visible.primitive + (row0 + row) * kTileSize, chunk.columns, level.primitive.data() + row * chunk.columns);
   } else if (job.frame.plan.primary_rays) {
     make_primary_batch(job.frame, level);
     trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
@@ -61,12 +61,13 @@ void compact_hits(TileWorker& w, Level& level, bool primary) {
   w.order.sort(level.primitive.data(), level.slots, level.slot_of_hit);
   const int n = static_cast<int>(level.slot_of_hit.size());
   level.hits.resize(n, true);
-  for (int i = 0; i < n; ++i) {
-    const uint32_t slot = level.slot_of_hit[i];
-    level.hits.pixel[i] = level.pixel[slot];
-    level.hits.ray[i] = slot;
-    level.hits.primitive[i] = level.primitive[slot];
-  }
+  const uint32_t* const slots = level.slot_of_hit.data();
+  std::copy_n(slots, n, level.hits.ray.data());
+  const auto pick = [&](const AlignedBuffer<uint32_t>& from, AlignedBuffer<uint32_t>& to) {
+    for (size_t i = 0; i < static_cast<size_t>(n); ++i) to[i] = from[slots[i]];
+  };
+  pick(level.pixel, level.hits.pixel);
+  pick(level.primitive, level.hits.primitive);
   level.hits.rays = primary ? nullptr : &level.rays;
 }
 
@@ -81,11 +82,12 @@ void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary
   const StageTimer timer(w, TileStage::kShade);
   for (int c = 0; c < 3; ++c) std::fill_n(level.radiance[c].data(), level.slots, job.frame.scene->background[c]);
   std::fill_n(level.opaque_t.data(), level.slots, kInfinity);
-  for (int i = 0; i < level.hits.count; ++i) {
-    const uint32_t slot = level.slot_of_hit[i];
-    for (int c = 0; c < 3; ++c) level.radiance[c][slot] = w.radiance[c][i];
-    level.opaque_t[slot] = level.surfaces.t[i];
-  }
+  const uint32_t* const slot_of_hit = level.slot_of_hit.data();
+  const auto scatter = [&](const float* from, float* to) {
+    for (int i = 0; i < level.hits.count; ++i) to[slot_of_hit[i]] = from[i];
+  };
+  for (int c = 0; c < 3; ++c) scatter(w.radiance[c].data(), level.radiance[c].data());
+  scatter(level.surfaces.t, level.opaque_t.data());
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
@@ -215,6 +217,7 @@ void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const C
     const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.frame.grid.width) + static_cast<size_t>(chunk.x0);
     const float* radiance[3] = {level.radiance[0].data() + slot, level.radiance[1].data() + slot, level.radiance[2].data() + slot};
     encode_row(job.frame.isa, radiance, chunk.columns, job.out.color.rgba.data() + 4 * pixel);
+    if (!job.request.radiance && !job.request.depth && !job.request.primitive) continue;
     for (size_t i = 0; i < static_cast<size_t>(chunk.columns); ++i) {
       if (job.request.radiance)
         for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = radiance[c][i];
@@ -242,8 +245,9 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += kChunkRows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + kChunkRows, grid.y1(tile))};
     level.resize(chunk.columns * (chunk.y1 - y0), job.frame.plan.translucents);
-    for (int i = 0; i < level.slots; ++i)
-      level.pixel[i] = pack_pixel(static_cast<uint32_t>(chunk.x0 + i % chunk.columns), static_cast<uint32_t>(y0 + i / chunk.columns));
+    for (int y = y0, i = 0; y < chunk.y1; ++y)
+      for (int x = chunk.x0; x < chunk.x0 + chunk.columns; ++x, ++i)
+        level.pixel[i] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
     find_primary_hits(job, chunk, w, level);
     shade_levels(job, w, chunk);
     w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);

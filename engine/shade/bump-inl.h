@@ -30,11 +30,10 @@ HWY_INLINE V3f tangent(const V3f& along, F32 direction, const V3f& n, Mask* vali
 }
 
 HWY_INLINE TangentLanes make_tangents(const SceneData& scene, const UseLanes& use, const UvLanes& uv, const V3f& n) {
-  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
   TangentLanes t;
   t.valid = first_lanes(kLanes);
-  t.u = tangent(uv.tangent_u, gather(reals, use.record + i32(kUseScale)), n, &t.valid);
-  t.v = tangent(uv.tangent_v, gather(reals, use.record + i32(kUseScale + 1)), n, &t.valid);
+  t.u = tangent(uv.tangent_u, use.real(scene, kUseScale), n, &t.valid);
+  t.v = tangent(uv.tangent_v, use.real(scene, kUseScale + 1), n, &t.valid);
   return t;
 }
 
@@ -43,7 +42,7 @@ struct SlopeLanes { F32 s, t; };
 // Raw height difference over one texel of `level`, per texel of level 0.
 [[maybe_unused]] static HWY_NOINLINE SlopeLanes level_slope(const SceneData& scene, const UseLanes& use, I32 level) {
   const auto height = [&](int dx, int dy) HWY_ATTR {
-    return choose_channel(scene, use, sample_level(scene, use, level, false, dx, dy));
+    return choose_channel(scene, use, sample_level<4>(scene, use, level, false, dx, dy));
   };
   const F32 shrink = float_from_bits(shift_left<23>(i32(127) - level));
   return {(height(128, 0) - height(-128, 0)) * shrink, (height(0, -128) - height(0, 128)) * shrink};  // rows go down, t up
@@ -62,9 +61,8 @@ HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Fil
     slope.s = mul_add(levels.weight, far_slope.s - slope.s, slope.s);
     slope.t = mul_add(levels.weight, far_slope.t - slope.t, slope.t);
   }
-  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
-  const F32 gain = gather(reals, use.record + i32(kUseGain));
-  const F32 bm = gather(reals, use.record + i32(kUseMultiplier));
+  const F32 gain = use.real(scene, kUseGain);
+  const F32 bm = use.real(scene, kUseMultiplier);
   const F32 scale = (gain * f32(kRawToUnit)) * bm;
   const F32 limit = f32(0x1p20f);  // steeper is vertical
   const F32 s = clamp_(slope.s * scale, -limit, limit), t = clamp_(slope.t * scale, -limit, limit);
@@ -77,10 +75,9 @@ HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Fil
 // n' = normalize(x T + y B + z N), the map's y up (the OpenGL convention). A channel c of 8 bits means (c - 128) / 127, so that
 // 128 is exactly flat; -bm scales x and y.
 HWY_INLINE V3f apply_normal_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
-  const RawSample raw = sample(scene, use, filter);
-  const F32 middle = f32(128 * 257 * 256), unit = f32(1.0f / (127 * 257 * 256)), one = f32(1.0f);
-  const float* reals = reinterpret_cast<const float*>(scene.texture_uses.data());
-  const F32 bm = gather(reals, use.record + i32(kUseMultiplier));
+  const RawSample raw = sample<3>(scene, use, filter);
+  const F32 middle = f32(128 * 257), unit = f32(1.0f / (127 * 257)), one = f32(1.0f);
+  const F32 bm = use.real(scene, kUseMultiplier);
   const auto decode = [&](int c) HWY_ATTR { return clamp_((raw.c[c] - middle) * unit, -one, one); };
   const F32 x = decode(0) * bm, y = decode(1) * bm, z = decode(2);
   const TangentLanes frame = make_tangents(scene, use, uv, n);

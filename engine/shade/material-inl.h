@@ -54,13 +54,13 @@ void resolve_diffuse(const Group& g, const SurfaceBatch& out) {
     const Filter filter = g.frame.settings.filter;
     const I32 map = material_map(g, SPANRAY_WORD(map_diffuse)), own = material_map(g, SPANRAY_WORD(map_ambient));
     if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
       const V3f color = sample_color(scene, use, filter);
       diffuse = modulate(diffuse, use, color);
       ambient = select(use.active & (own < i32(0)), multiply(ambient, color), ambient);
     }
     if (g.frame.plan.ambient && has_use(scene, own, g.valid)) {
-      const UseLanes use = open_use(scene, own, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, own, g.material.uniform, g.valid, *g.uv);
       ambient = modulate(ambient, use, sample_color(scene, use, filter));
     }
   }
@@ -80,13 +80,13 @@ void resolve_specular(const Group& g, const SurfaceBatch& out) {
   if (g.uv != nullptr && plan.textures && (plan.specular || plan.bounces)) {
     const I32 map = material_map(g, SPANRAY_WORD(map_specular)), exponent_map = material_map(g, SPANRAY_WORD(map_shininess));
     if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
       const V3f color = sample_color(scene, use, g.frame.settings.filter);
       specular = modulate(specular, use, color);
       mirror = modulate(mirror, use, color);
     }
     if (plan.specular && has_use(scene, exponent_map, g.valid)) {
-      const UseLanes use = open_use(scene, exponent_map, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, exponent_map, g.material.uniform, g.valid, *g.uv);
       const F32 scaled = shininess * sample_scalar(scene, use, g.frame.settings.filter);
       shininess = select(use.active, clamp_(scaled, zero.x, f32(1e4f)), shininess);
     }
@@ -103,7 +103,7 @@ void resolve_emission_and_opacity(const Group& g, const SurfaceBatch& out) {
     emission = material_color(g, SPANRAY_WORD(emission));
     const I32 map = material_map(g, SPANRAY_WORD(map_emission));
     if (g.uv != nullptr && g.frame.plan.textures && has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
       emission = modulate(emission, use, sample_color(scene, use, g.frame.settings.filter));
     }
   }
@@ -111,7 +111,7 @@ void resolve_emission_and_opacity(const Group& g, const SurfaceBatch& out) {
   if (g.uv != nullptr && g.frame.plan.translucents) {
     const I32 map = material_map(g, SPANRAY_WORD(map_opacity));
     if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.valid, *g.uv);
+      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
       const F32 scaled = opacity * sample_scalar(scene, use, g.frame.settings.filter);
       opacity = select(use.active, clamp_(scaled, F32::zero(), f32(1.0f)), opacity);
     }
@@ -125,9 +125,9 @@ HWY_INLINE V3f bumped_normal(const Group& g, V3f normal) {
   const I32 heights = material_map(g, SPANRAY_WORD(map_bump)), normals = material_map(g, SPANRAY_WORD(map_normal));
   const Filter filter = g.frame.settings.filter;
   if (has_use(scene, heights, g.valid))
-    normal = apply_height_map(scene, open_use(scene, heights, g.valid, *g.uv), filter, *g.uv, normal);
+    normal = apply_height_map(scene, open_use(scene, heights, g.material.uniform, g.valid, *g.uv), filter, *g.uv, normal);
   if (has_use(scene, normals, g.valid))
-    normal = apply_normal_map(scene, open_use(scene, normals, g.valid, *g.uv), filter, *g.uv, normal);
+    normal = apply_normal_map(scene, open_use(scene, normals, g.material.uniform, g.valid, *g.uv), filter, *g.uv, normal);
   return normal;
 }
 

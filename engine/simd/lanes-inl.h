@@ -142,9 +142,16 @@ template <int kBits> HWY_INLINE I32 shift_right_logical(I32 a) {
   const hn::RebindToUnsigned<DI> du;
   return {hn::BitCast(DI(), hn::ShiftRight<kBits>(hn::BitCast(du, a.v)))};
 }
+// a >> bits, arithmetic, lane by lane; bits in [0, 31].
+HWY_INLINE I32 shift_right_by(I32 a, I32 bits) { return {hn::Shr(a.v, bits.v)}; }
 HWY_INLINE Mask operator==(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Eq(a.v, b.v))}; }
 HWY_INLINE Mask operator!=(I32 a, I32 b) { return !(a == b); }
 HWY_INLINE Mask operator<(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Lt(a.v, b.v))}; }
+// a < b of the words as unsigned numbers.
+HWY_INLINE Mask less_unsigned(I32 a, I32 b) {
+  const hn::RebindToUnsigned<DI> du;
+  return {hn::RebindMask(DF(), hn::Lt(hn::BitCast(du, a.v), hn::BitCast(du, b.v)))};
+}
 HWY_INLINE Mask operator>(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Gt(a.v, b.v))}; }
 HWY_INLINE I32 min_(I32 a, I32 b) { return select(a < b, a, b); }
 HWY_INLINE I32 max_(I32 a, I32 b) { return select(a > b, a, b); }
@@ -154,6 +161,13 @@ HWY_INLINE F32 to_f32(I32 a) { return {hn::ConvertTo(DF(), a.v)}; }  // round to
 // Truncates toward zero; saturates to +-2147483520; NaN -> -2147483520.
 HWY_INLINE I32 to_i32(F32 a) {
   return {hn::ConvertTo(DI(), clamp_(a, f32(-2147483520.0f), f32(2147483520.0f)).v)};
+}
+// Truncates toward zero; |a| < 2^31.
+HWY_INLINE I32 to_i32_small(F32 a) { return {hn::ConvertTo(DI(), a.v)}; }
+// Largest integer <= a; |a| < 2^31.
+HWY_INLINE I32 floor_i32_small(F32 a) {
+  const I32 t = to_i32_small(a);
+  return t - select(to_f32(t) > a, i32(1), i32(0));
 }
 // Largest integer <= a, for |a| < 2^31; larger magnitudes return a itself; NaN -> NaN; the sign of a zero is +.
 HWY_INLINE F32 floor_(F32 a) {
@@ -173,6 +187,21 @@ HWY_INLINE F32 gather(const float* base, I32 index) { return {hn::GatherIndex(DF
 HWY_INLINE I32 gather(const int32_t* base, I32 index) { return {hn::GatherIndex(DI(), base, index.v)}; }
 HWY_INLINE I32 gather(const uint32_t* base, I32 index) {
   return gather(reinterpret_cast<const int32_t*>(base), index);
+}
+
+// The two halves of 64-bit word `index` of base.
+struct WordPair { I32 low, high; };
+HWY_INLINE WordPair gather_pair(const uint32_t* base, I32 index) {
+#if HWY_TARGET == HWY_SCALAR
+  const uint32_t* p = base + 2 * static_cast<ptrdiff_t>(hn::GetLane(index.v));
+  return {{hn::Set(DI(), static_cast<int32_t>(p[0]))}, {hn::Set(DI(), static_cast<int32_t>(p[1]))}};
+#else
+  const DDI dl;
+  const int64_t* words = reinterpret_cast<const int64_t*>(base);
+  const auto a = hn::BitCast(DI(), hn::GatherIndex(dl, words, hn::PromoteTo(dl, hn::LowerHalf(DHI(), index.v))));
+  const auto b = hn::BitCast(DI(), hn::GatherIndex(dl, words, hn::PromoteTo(dl, hn::UpperHalf(DHI(), index.v))));
+  return {{hn::ConcatEven(DI(), b, a)}, {hn::ConcatOdd(DI(), b, a)}};
+#endif
 }
 
 // ---- double ------------------------------------------------------------------------------------------------------------
