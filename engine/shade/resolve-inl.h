@@ -57,11 +57,8 @@ struct SurfaceLanes {
 HWY_INLINE const RayBatch* secondary(const RayBatch* rays) { return rays != nullptr && !rays->primary ? rays : nullptr; }
 
 HWY_INLINE RecordLanes record_lanes(I32 index, int stride, bool uniform) {
-  RecordLanes r{index * i32(stride), 0, uniform};
-  alignas(64) uint32_t lanes[16];
-  r.offset.store(lanes);
-  r.first = lanes[0];
-  return r;
+  const I32 offset = index * i32(stride);
+  return {offset, static_cast<uint32_t>(first_lane(offset)), uniform};
 }
 
 HWY_INLINE V3d gather3(const AlignedBuffer<float> (&a)[3], I32 index) {

@@ -44,9 +44,7 @@ HitLanes load_hits(const HitBatch& hits, int at) {
   h.first_primitive = lanes == 0 ? 0 : hits.primitive[static_cast<size_t>(at + __builtin_ctz(lanes))];
   h.primitive = select(h.valid, h.primitive, i32(h.first_primitive));
   h.uniform = all(h.primitive == i32(h.first_primitive));
-  alignas(64) uint32_t primitive[16];
-  h.primitive.store(primitive);
-  h.first_primitive = primitive[0];
+  h.first_primitive = static_cast<uint32_t>(first_lane(h.primitive));
   return h;
 }
 
@@ -84,9 +82,7 @@ HWY_INLINE PointLanes secondary_point(const Frame& frame, const HitLanes& hits) 
 
 void store_surface(const Frame& frame, const HitBatch& hits, int at, Mask valid, const PointLanes& point, SurfaceBatch& out) {
   Group g{frame, valid, {}, reads_textures(frame) ? &point.uv : nullptr, at};
-  alignas(64) uint32_t first_material[16];
-  point.material.store(first_material);
-  g.material = record_lanes(point.material, kMaterialStride, all(point.material == i32(first_material[0])));
+  g.material = record_lanes(point.material, kMaterialStride, all(point.material == i32(first_lane(point.material))));
   put(g, out.position, point.position);
   put(g, out.position_error, point.position_error);
   put(g, out.t, point.t);

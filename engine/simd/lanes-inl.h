@@ -70,6 +70,7 @@ HWY_INLINE F64 f64(double x) {
   for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Set(DD(), x);
   return r;
 }
+HWY_INLINE int32_t first_lane(I32 a) { return hn::GetLane(a.v); }
 HWY_INLINE I32 lane_iota(int32_t first = 0) { return {hn::Iota(DI(), first)}; }
 
 // ---- bits ----------------------------------------------------------------------------------------------------------
