@@ -148,7 +148,7 @@ TEST_F(LadderFile, BadFilesAreRefusedWithTheirCause) {
       {"[]", "numeric_contract"},
       {"{\"numeric_contract\": \"1\"}", "numeric_contract"},
       {good.substr(0, good.size() / 2), "JSON"},
-      {replaced("\"numeric_contract\": 1", "\"numeric_contract\": 99"), "numeric contract 99"},
+      {replaced("\"numeric_contract\": " + std::to_string(kNumericContract), "\"numeric_contract\": 99"), "numeric contract 99"},
       {replaced("\"width\": 130", "\"width\": 0"), "width"},
       {replaced("\"width\": 130", "\"width\": -5"), "width"},
       {replaced("\"width\": 130", "\"width\": 16384"), "too short"},

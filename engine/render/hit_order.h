@@ -10,13 +10,24 @@ namespace spanray {
 
 class HitOrder {
  public:
-  // Slots that hit something (primitive != kNoPrimitive), by primitive and, within one, by slot. count: at most 2^16 slots.
+  HitOrder();
+  // Slots that hit something (primitive != kNoPrimitive): primitives in order of their first slot, slots of one in order.
   // Contract: only the order of shading; an entry's surface and light do not depend on its place (shade/resolve_kernel.cpp).
-  void sort(const uint32_t* primitive, int count, AlignedBuffer<uint32_t>& slot_of_hit);
-  size_t memory_bytes() const { return runs_.capacity() * sizeof(uint64_t); }
+  void group(const uint32_t* primitive, int count, AlignedBuffer<uint32_t>& slot_of_hit);
+  size_t memory_bytes() const {
+    return runs_.capacity() * sizeof(Run) + start_.capacity() * sizeof(uint32_t) + table_.capacity() * sizeof(Entry);
+  }
 
  private:
-  std::vector<uint64_t> runs_;  // primitive, first slot, length: 32, 16 and 16 bits
+  struct Run { uint32_t begin, length, group; };
+  struct Entry { uint32_t primitive, group, epoch; };  // of an older epoch: empty
+  uint32_t group_of(uint32_t primitive);
+  void make_room(size_t groups);
+
+  std::vector<Run> runs_;         // neighbouring slots of one primitive
+  std::vector<uint32_t> start_;   // of each group: its number of slots, then its place in the order
+  std::vector<Entry> table_;      // by hash of the primitive; at most half full
+  uint32_t epoch_ = 0;
 };
 
 }  // namespace spanray

@@ -58,7 +58,7 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
 
 // The slots that hit something, as a batch: shading works on these only.
 void compact_hits(TileWorker& w, Level& level, bool primary) {
-  w.order.sort(level.primitive.data(), level.slots, level.slot_of_hit);
+  w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
   const int n = static_cast<int>(level.slot_of_hit.size());
   level.hits.resize(n, true);
   const uint32_t* const slots = level.slot_of_hit.data();
