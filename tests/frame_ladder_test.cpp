@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "frame/ladder.h"
 #include "frame/tiles.h"
+#include "spanray/stats.h"
 
 namespace spanray {
 namespace {
