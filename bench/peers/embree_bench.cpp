@@ -36,6 +36,7 @@ struct Cell {
   Asked asked;
   std::vector<double> ms;
   uint64_t different = 0;  // rays whose answer is not ours
+  double warm_up_ms = 0;
   double mrays(size_t rays) const { return static_cast<double>(rays) / median(ms) * 1e-3; }
 };
 
@@ -118,15 +119,23 @@ std::vector<Cell> make_cells(const TracedScene& ours, const EmbreeTracer& fast, 
   return cells;
 }
 
+constexpr double kOutOfTheRace = 1.5;  // modes that were this much slower than the best in the warm-up are not timed
+
 void measure(const Options& o, const RayClass& c, Parallel& parallel, const SceneData& scene, std::vector<Cell>& cells) {
   Answers ours, theirs;
   make_room(c, ours), make_room(c, theirs);
+  double fastest[2] = {1e300, 1e300};  // of Embree's trees
   for (Cell& cell : cells) {  // warm-up, checked
+    const Stopwatch watch;
     ask(cell.asked, c, parallel, cell.asked.embree == nullptr ? ours : theirs);
-    if (cell.asked.embree != nullptr) cell.different = count_different(scene, c, ours, theirs);
+    cell.warm_up_ms = watch.wall();
+    if (cell.asked.embree == nullptr) continue;
+    cell.different = count_different(scene, c, ours, theirs);
+    fastest[cell.asked.robust] = std::min(fastest[cell.asked.robust], cell.warm_up_ms);
   }
   for (int pass = 0; pass < o.passes; ++pass) {
     for (Cell& cell : cells) {
+      if (cell.asked.embree != nullptr && cell.warm_up_ms > kOutOfTheRace * fastest[cell.asked.robust]) continue;
       const Stopwatch watch;
       ask(cell.asked, c, parallel, theirs);
       cell.ms.push_back(watch.wall());
@@ -137,7 +146,7 @@ void measure(const Options& o, const RayClass& c, Parallel& parallel, const Scen
 const Cell& best(const std::vector<Cell>& cells, bool robust) {
   const Cell* found = nullptr;
   for (const Cell& cell : cells)
-    if (cell.asked.embree != nullptr && cell.asked.robust == robust && (found == nullptr || median(cell.ms) < median(found->ms))) found = &cell;
+    if (cell.asked.embree != nullptr && cell.asked.robust == robust && !cell.ms.empty() && (found == nullptr || median(cell.ms) < median(found->ms))) found = &cell;
   return *found;
 }
 
@@ -170,7 +179,8 @@ nlohmann::ordered_json json_of(const RayClass& c, const std::vector<Cell>& cells
   nlohmann::ordered_json modes;
   for (const Cell& cell : cells) {
     const std::string name = cell.asked.embree == nullptr ? "ours" : std::string(cell.asked.robust ? "embree robust " : "embree ") + embree_mode_name(cell.asked.mode);
-    modes[name] = {{"mrays_per_s", cell.mrays(rays)}, {"different", cell.different}, {"all_ms", cell.ms}};
+    modes[name] = {{"different", cell.different}, {"warm_up_ms", cell.warm_up_ms}, {"all_ms", cell.ms}};
+    if (!cell.ms.empty()) modes[name]["mrays_per_s"] = cell.mrays(rays);
   }
   return {{"kind", c.name}, {"rays", rays}, {"tracers", modes}};
 }
