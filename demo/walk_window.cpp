@@ -49,7 +49,9 @@ bool wait_for_scene(Window& window, Loading& loading, const std::string& name) {
   while (!loading.done(0)) {
     if (wants_to_leave(window.wait(static_cast<int>(kDrawSeconds * 1000)))) return false;
     const Loading::State state = loading.state();
-    window.draw([&] { draw_progress(name, state.stage, state.fraction, seconds_since(start)); });
+    // Stages that cannot tell how far they are stay at 0.
+    const double fraction = state.fraction > 0 ? state.fraction : -1;
+    window.draw([&] { draw_progress(name, state.stage, fraction, seconds_since(start)); });
   }
   return true;
 }
