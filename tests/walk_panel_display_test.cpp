@@ -172,6 +172,16 @@ TEST_F(WalkPanel, ResizingWhileFramesAreMade) {
   leave();
 }
 
+TEST_F(WalkPanel, LeavesAtOnceThoughAFrameTakesLong) {
+  size_ = "4000x4000";
+  launch(with({"--isa", "scalar", "--threads", "1"}));  // ten seconds
+  const auto closed = std::chrono::steady_clock::now();
+  key("Escape");
+  ASSERT_TRUE(walk_->wait(60));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - closed).count(), 5);
+  EXPECT_EQ(0, walk_->code()) << walk_->error();
+}
+
 class WalkLoading : public WalkPanel {
  protected:
   void SetUp() override {
