@@ -14,6 +14,8 @@ struct Detail {
   }
   // Length of a division where the shipped scene has `shipped` meters.
   double cell(double shipped) const { return shipped / linear; }
+  // Small parts are left out below a level of their own each, so that counts fall without a step.
+  bool keep(double from) const { return linear >= from; }
   // Edges are cut only where somebody may come near enough to see it.
   double chamfer(double size) const { return linear < 0.75 ? 0 : size; }
 };

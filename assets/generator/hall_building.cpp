@@ -9,13 +9,19 @@ namespace {
 
 // Its own column, 3.41 high: a base with two rolls, a shaft that swells a little, a bell of a capital with a gilded ring.
 void column(ObjMesh& mesh, const Detail& d, const Placement& at, const std::string& name, const char* marble) {
-  const int around = d.count(22, 8);
+  const int around = d.count(22, 6);
   mesh.object(name + "_base", "stone");
   Placement plinth = at, abacus = at;
   plinth.origin = at.point({0, 0.06, 0}), abacus.origin = at.point({0, 3.33, 0});
   box(mesh, plinth, {0.82, 0.16, 0.82}, d.chamfer(0.012), d.cell(1), kStone);
   box(mesh, abacus, {0.86, 0.16, 0.86}, d.chamfer(0.012), d.cell(1), kStone);
   const int roll = d.count(5, 2);
+  if (!d.keep(0.15)) {  // from far away: two cones
+    lathe(mesh, at, Outline(0, 0.12).line(0.38, 0.12).line(0.30, 0.39).line(0, 0.39).done(), around, 1, kStone);
+    lathe(mesh, at, Outline(0, 2.86).line(0.25, 2.86).line(0.40, 3.26).line(0, 3.26).done(), around, 1, kStone);
+    mesh.object(name + "_shaft", marble);
+    return lathe(mesh, at, Outline(0, 0.37).line(0.29, 0.37).line(0.25, 2.89).line(0, 2.89).done(), around, 1, 2.0);
+  }
   const Profile base = Outline(0, 0.12).line(0.33, 0.12).smooth(arc({0.33, 0.18}, 0.060, 0.060, -90, 90, roll)).line(0.325, 0.245)
                            .smooth(arc({0.345, 0.285}, 0.045, 0.040, -110, -230, d.count(3, 2))).line(0.318, 0.325)
                            .smooth(arc({0.318, 0.355}, 0.036, 0.030, -90, 90, d.count(4, 2))).line(0.30, 0.39).line(0, 0.39).done();
@@ -23,8 +29,10 @@ void column(ObjMesh& mesh, const Detail& d, const Placement& at, const std::stri
   const Profile capital = Outline(0, 2.90).line(0.255, 2.90).smooth({{0.250, 2.95}, {0.250, 3.00}}).line(0.270, 3.00).line(0.270, 3.03)
                               .smooth(arc({0.27, 3.20}, 0.115, 0.17, -90, -8, d.count(5, 2))).line(0.40, 3.26).line(0, 3.26).done();
   lathe(mesh, at, refined(capital, d.cell(0.5)), around, 1, kStone);
-  mesh.object(name + "_ring", "gilt");
-  lathe(mesh, at, {arc({0.258, 2.885}, 0.030, 0.030, -180, 180, d.count(6, 4))}, around);
+  if (d.keep(0.30)) {
+    mesh.object(name + "_ring", "gilt");
+    lathe(mesh, at, {arc({0.258, 2.885}, 0.030, 0.030, -180, 180, d.count(6, 4))}, around);
+  }
   mesh.object(name + "_shaft", marble);
   std::vector<glm::dvec2> side = {{0.30, 0.385}, {0.288, 0.42}};
   const int rows = d.count(5, 2);
@@ -32,7 +40,7 @@ void column(ObjMesh& mesh, const Detail& d, const Placement& at, const std::stri
     const double t = static_cast<double>(k) / rows;
     side.push_back({0.288 - 0.042 * t * t, 0.42 + 2.47 * t});
   }
-  lathe(mesh, at, refined(Outline(0, 0.37).line(0.30, 0.37).smooth(side).line(0, 2.89).done(), d.cell(0.6)), d.count(24, 8), 1, 2.0);
+  lathe(mesh, at, refined(Outline(0, 0.37).line(0.30, 0.37).smooth(side).line(0, 2.89).done(), d.cell(0.6)), d.count(24, 6), 1, 2.0);
 }
 
 void arcade_side(ObjMesh& mesh, const Detail& d, double side) {
@@ -41,9 +49,10 @@ void arcade_side(ObjMesh& mesh, const Detail& d, double side) {
   for (int bay = 0; bay < kBays; ++bay) {
     Placement at = toward_nave;
     at.origin = {side * kColumnX, 0, bay_center(bay)};
-    ArchWall wall{kBay, kArchRadius, kSpring, kSpring, kArcadeTop, kArcadeDepth, kStone, d.count(18, 8), d.count(2), d.count(1), d.count(1), stone_shift(bay)};
+    ArchWall wall{kBay, kArchRadius, kSpring, kSpring, kArcadeTop, kArcadeDepth, kStone, d.count(18, 6), d.count(2), d.count(1), d.count(1), stone_shift(bay)};
     mesh.object("arcade_" + where + std::to_string(bay), "ashlar");
     arch_wall(mesh, at, wall);
+    if (!d.keep(0.20)) continue;
     mesh.object("archivolt_" + where + std::to_string(bay), "stone");
     archivolt(mesh, at, wall, 0.26, 0.06, d.count(18, 8));
   }
@@ -79,6 +88,7 @@ void aisle_side(ObjMesh& mesh, const Detail& d, double side) {
     arch_wall(mesh, placed({middle, 0, axis_z(k)}), wall);
     mesh.object("pilaster_" + where + std::to_string(k), "stone");
     box(mesh, placed({side * (kWallX - 0.12), 1.65, axis_z(k)}), {0.44, 3.36, 0.56}, d.chamfer(0.012), d.cell(0.9), kStone);
+    if (!d.keep(0.12)) continue;
     box(mesh, placed({side * (kWallX - 0.13), 3.33, axis_z(k)}), {0.58, 0.16, 0.68}, d.chamfer(0.010), d.cell(1), kStone);
     box(mesh, placed({side * (kWallX - 0.12), 0.10, axis_z(k)}), {0.56, 0.24, 0.66}, d.chamfer(0.010), d.cell(1), kStone);
   }
@@ -96,6 +106,7 @@ void window_wall(ObjMesh& mesh, const Detail& d) {
     const ArchWall wall{kBay, 0.80, 1.0, 3.0, kAisleCeiling + 0.2, 0.6, kStone, d.count(16, 8), d.count(2), d.count(1), d.count(1), stone_shift(bay + 3)};
     mesh.object("window_wall_" + std::to_string(bay), "ashlar");
     arch_wall(mesh, at, wall);
+    if (!d.keep(0.26)) continue;
     mesh.object("window_ring_" + std::to_string(bay), "stone");
     archivolt(mesh, at, wall, 0.16, 0.05, d.count(16, 8));
   }
@@ -124,8 +135,10 @@ void brick_wall(ObjMesh& mesh, const Detail& d) {
       const ArchWall wall{kBay, 0.72, 0.9, 2.75, top, 0.6, 2.0, d.count(14, 8), d.count(2), d.count(1), d.count(1), {0.25 * (bay * 3 % 8), 0}};
       mesh.object("niche_wall_" + std::to_string(bay), "brick");
       arch_wall(mesh, at, wall);
-      mesh.object("niche_arch_" + std::to_string(bay), "stone");
-      archivolt(mesh, at, wall, 0.18, 0.06, d.count(14, 8));
+      if (d.keep(0.22)) {
+        mesh.object("niche_arch_" + std::to_string(bay), "stone");
+        archivolt(mesh, at, wall, 0.18, 0.06, d.count(14, 8));
+      }
       mesh.object("niche_" + std::to_string(bay), "niche");
       hollow(mesh, at, 0.80, 0.85, 2.75, d.count(14, 8), d.count(3, 2), kStone);
     } else {
@@ -179,6 +192,7 @@ void add_ends(ObjMesh& mesh, const Detail& d) {
   const auto end = [&](const std::string& name, const Placement& at, const ArchWall& wall, double ring) {
     mesh.object(name, "ashlar");
     arch_wall(mesh, at, wall);
+    if (!d.keep(0.18)) return;
     mesh.object(name + "_ring", "stone");
     archivolt(mesh, at, wall, ring, 0.07, d.count(22, 8));
   };
@@ -225,7 +239,7 @@ void add_garden(ObjMesh& mesh, const Detail& d) {
   mesh.object("cypress", "foliage");
   for (int k = 0; k < 9; ++k) {
     const double x = k < 6 ? 15.2 + 0.8 * (k & 1) : -6.0 + 6.0 * (k - 6), z = k < 6 ? 5.0 - 6.2 * k : 15.5;
-    lathe(mesh, placed({x, -0.35, z}), refined(Outline(0, 0).line(0.2, 0).line(0.2, 0.5).smooth({{0.62, 0.9}, {0.75, 1.6}, {0.66, 3.0}, {0.40, 4.6}, {0.02, 6.2}, {0, 6.2}}).done(), d.cell(1.5)), d.count(12, 6), 3, 1.6);
+    lathe(mesh, placed({x, -0.35, z}), refined(Outline(0, 0).line(0.2, 0).line(0.2, 0.5).smooth({{0.62, 0.9}, {0.75, 1.6}, {0.66, 3.0}, {0.40, 4.6}, {0.02, 6.2}, {0, 6.2}}).done(), d.cell(1.5)), d.count(12, 4), 3, 1.6);
   }
 }
 

@@ -32,7 +32,8 @@ void curtain(ObjMesh& mesh, const Detail& d, const Placement& at) {
       if (side == 1) p.x = -p.x;
       return at.point(p);
     };
-    smooth_patch(mesh, d.count(46, 20), d.count(13, 8), point, [](double s, double t) { return glm::dvec2{s * 2, t * 4}; }, 1e-3, at.z);
+    smooth_patch(mesh, d.count(46, d.keep(0.25) ? 20 : 10), d.count(13, d.keep(0.25) ? 8 : 4), point, [](double s, double t) { return glm::dvec2{s * 2, t * 4}; }, 1e-3, at.z);
+    if (!d.keep(0.20)) continue;
     mesh.object("curtain_cord", "gilt");
     const Point tie = half_curtain(0.5, 0.60);
     Placement ring = at;
@@ -61,10 +62,12 @@ void chandelier(ObjMesh& mesh, const Detail& d, const Point& middle) {
   }
   for (int k = 0; k < 10; ++k) {
     const Placement p = placed(middle, 36.0 * k);
-    mesh.object("lamp_cup", "bronze");
-    lathe(mesh, placed(p.point({0.615, 0, 0})), Outline(0, 0.02).line(0.02, 0.02).smooth({{0.055, 0.045}, {0.065, 0.085}}).line(0, 0.085).done(), d.count(8, 5));
+    if (d.keep(0.32)) {
+      mesh.object("lamp_cup", "bronze");
+      lathe(mesh, placed(p.point({0.615, 0, 0})), Outline(0, 0.02).line(0.02, 0.02).smooth({{0.055, 0.045}, {0.065, 0.085}}).line(0, 0.085).done(), d.count(8, 5));
+    }
     mesh.object("lamp_globe", "lamp");
-    superellipsoid(mesh, placed(p.point({0.615, 0.14, 0})), {0.062, 0.075, 0.062}, 1, 1, d.count(8, 6));
+    superellipsoid(mesh, placed(p.point({0.615, 0.14, 0})), {0.062, 0.075, 0.062}, 1, 1, d.count(8, 4));
   }
 }
 
@@ -82,13 +85,14 @@ void glass_case(ObjMesh& mesh, const Detail& d, const Placement& foot, double wi
   part(0, base - 0.03, 0, {width + 0.04, 0.06, depth + 0.04}, 0.012);
   mesh.object("case_cloth", "velvet");
   part(0, base, 0, {width - 0.05, 0.02, depth - 0.05}, 0);
-  mesh.object("case_edges", "brass");
+  if (d.keep(0.16)) mesh.object("case_edges", "brass");
   const double e = 0.022;
   for (const double sx : {-1.0, 1.0}) {
-    for (const double sz : {-1.0, 1.0}) part(sx * (width / 2 - e / 2), base + high / 2 - 0.005, sz * (depth / 2 - e / 2), {e, high, e}, 0.003);
+    for (const double sz : {-1.0, 1.0}) if (d.keep(0.16)) part(sx * (width / 2 - e / 2), base + high / 2 - 0.005, sz * (depth / 2 - e / 2), {e, high, e}, 0.003);
   }
   for (const double level : {base + 0.008, base + high}) {
     for (const double s : {-1.0, 1.0}) {
+      if (!d.keep(0.16)) continue;
       part(0, level, s * (depth / 2 - e / 2), {width + 0.002, e, e + 0.002}, 0.003);
       part(s * (width / 2 - e / 2), level, 0, {e + 0.002, e + 0.002, depth + 0.002}, 0.003);
     }
@@ -121,6 +125,7 @@ void bench(ObjMesh& mesh, const Detail& d, const Placement& at) {
 
 void add_ironwork(ObjMesh& mesh, const Detail& d) {
   for (int bay = 0; bay < kBays; ++bay) {
+    if (bay == 2) continue;  // its leaves are taken out: the sun falls on the flame through it, and bars would draw on that
     mesh.object("lattice", "lattice");
     const Placement at = placed({kWallX + 0.34, 0, bay_center(bay)}, -90);
     rectangle(mesh, at.point({-0.85, 0.96, 0}), 1.7 * at.x, {0, 2.89, 0}, d.count(2), d.count(3), 1.6, {-0.85 / 1.6 + 0.5, 0});
@@ -142,14 +147,14 @@ void add_ironwork(ObjMesh& mesh, const Detail& d) {
   mesh.object("rail", "bronze");
   const Placement along{{-half, 0.92, z}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
   bar(mesh, along, {arc({0, 0}, 0.030, 0.026, 0, 360, d.count(8, 5))}, 2 * half, d.count(8, 2));
-  for (int k = 0; k <= 4; ++k) {
+  for (int k = 0; k <= 4 && d.keep(0.14); ++k) {
     lathe(mesh, placed({-half + k * half / 2, 0, z}), Outline(0, -0.02).line(0.05, -0.02).line(0.05, 0.03).line(0.022, 0.05).line(0.022, 0.92).smooth(arc({0, 0.97}, 0.045, 0.05, -60, 90, d.count(5, 3))).done(), d.count(8, 5));
   }
 }
 
 void add_curtains(ObjMesh& mesh, const Detail& d) {
   for (const int bay : {1, 3, 5}) curtain(mesh, d, placed({-kColumnX, 0, bay_center(bay)}, 90));
-  for (const int bay : {2, 4}) curtain(mesh, d, placed({kColumnX, 0, bay_center(bay)}, -90));
+  for (const int bay : {1, 4}) curtain(mesh, d, placed({kColumnX, 0, bay_center(bay)}, -90));
 }
 
 void add_lanterns(ObjMesh& mesh, const Detail& d) {
@@ -167,18 +172,18 @@ void add_cases(ObjMesh& mesh, const Detail& d) {
     return p;
   };
   mesh.object("vase", "ceramic");
-  vase(mesh, on(first, -0.22, 0.872, 0.02), d.count(26, 8));
+  vase(mesh, on(first, -0.22, 0.872, 0.02), d.count(26, 6));
   mesh.object("case_torus", "gilt");
   Placement ring = on(first, 0.20, 1.052, 0.05);
   const Placement lying = ring;
   ring.y = lying.z, ring.z = -lying.y;
   supertoroid(mesh, ring, {0.075, 0.05, 0.055}, 0.7, 1.0, d.count(28, 10));
   mesh.object("urn", "clay");
-  urn(mesh, on(second, 0.16, 0.872, 0), d.count(24, 8));
+  urn(mesh, on(second, 0.16, 0.872, 0), d.count(24, 6));
   mesh.object("case_stone", "marble_verde");
   superellipsoid(mesh, on(second, -0.24, 0.985, 0.04), {0.125, 0.125, 0.125}, 0.35, 0.35, d.count(24, 10));
   mesh.object("vase", "ceramic");
-  vase(mesh, on(third, 0, 0.872, 0), d.count(24, 8));
+  vase(mesh, on(third, 0, 0.872, 0), d.count(24, 6));
   for (const double z : {-8.0, -13.5}) bench(mesh, d, placed({-4.7, 0, z}, 90));
   bench(mesh, d, placed({4.9, 0, -10.5}, 90));
 }

@@ -79,7 +79,7 @@ Placement scaled(const Point& origin, double degrees, double size) {
 
 Cage smooth_cage(const Detail& d, Cage cage) {
   // Each step doubles the divisions of an edge; the shipped level has four.
-  for (int n = 1; n < d.count(4, 2); n *= 2) cage = subdivided(cage);
+  for (int n = 1; n < d.count(4, 1); n *= 2) cage = subdivided(cage);
   return cage;
 }
 
@@ -98,23 +98,19 @@ Cage cube_frame() {
   return cage;
 }
 
-// A closed loop of cells that climbs over itself.
-Cage loop() {
-  Cage cage = cage_of_cells({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {2, 2, 1}, {2, 2, 2}, {1, 2, 2}, {0, 2, 2}, {0, 3, 2}, {0, 4, 2}, {0, 4, 1}, {0, 4, 0}, {0, 3, 0}, {0, 2, 0}, {0, 1, 0}});
-  for (Point& p : cage.points) p = p - Point{1.5, 0, 1.5};
-  return cage;
-}
-
 }  // namespace
 
 void add_sculptures(ObjMesh& mesh, const Detail& d) {
-  plinth(mesh, d, placed({-1.75, 0, -5.1}, 8), 0.62, 0.62, "marble_verde");
+  plinth(mesh, d, placed({-1.65, 0, -5.85}, 8), 0.62, 0.62, "marble_verde");
   mesh.object("flame", "alabaster");
-  implicit_surface(mesh, placed({-1.75, 0.58, -5.1}, 60), flame(), {-0.6, -0.3, -0.6}, {0.6, 2.0, 0.6}, d.cell(0.050));
+  implicit_surface(mesh, placed({-1.65, 0.58, -5.85}, 60), flame(), {-0.6, -0.3, -0.6}, {0.6, 2.0, 0.6}, d.cell(0.050));
 
   plinth(mesh, d, placed({1.80, 0, -10.4}, -12), 0.66, 0.70, "marble_verde");
-  mesh.object("loop", "polished_bronze");
-  add_cage(mesh, scaled({1.80, 0.70, -10.4}, 28, 0.235), smooth_cage(d, loop()));
+  mesh.object("linked_rings", "polished_bronze");
+  for (int k = 0; k < 2; ++k) {
+    const Placement at = placed({1.80 + (k == 0 ? -0.13 : 0.13), 0.69 + 0.42, -10.4}, k == 0 ? 62 : -28);
+    supertoroid(mesh, {at.origin, at.x, at.z, -at.y}, {0.26, 0.08, 0.08}, 1.0, 1.0, d.count(40, 12));
+  }
 
   plinth(mesh, d, placed({-1.85, 0, -16.4}, 6), 0.60, 0.80, "marble_verde");
   mesh.object("cube_frame", "bronze");
@@ -130,7 +126,7 @@ void add_sculptures(ObjMesh& mesh, const Detail& d) {
   // In the niches; their sills are at 0.965.
   const double sill = 0.955, x = -kWallX - 0.42;
   mesh.object("niche_urn", "clay");
-  urn(mesh, scaled({x, sill, bay_center(3)}, 0, 1), d.count(24, 8));
+  urn(mesh, scaled({x, sill, bay_center(3)}, 0, 1), d.count(24, 6));
   for (const int bay : {1, 5}) {
     mesh.object("niche_foot", "stone");
     box(mesh, placed({x, sill + 0.06, bay_center(bay)}), {0.42, 0.16, 0.42}, d.chamfer(0.012), d.cell(0.8), kStone);

@@ -10,8 +10,8 @@ namespace {
 const char* const kUsage =
     "usage: spanray_make_assets FOLDER                  all shipped scenes and their textures\n"
     "       spanray_make_assets --detail N hall FOLDER  the gallery hall with about N triangles (within 20 %), 10000 to 10000000\n"
-    "FOLDER is made if it is not there. The same N gives the same bytes on every machine; ten million triangles take about a\n"
-    "minute, 3 GB of memory and 600 MB on disk.\n";
+    "FOLDER is made if it is not there. The same N gives the same bytes on every machine; ten million triangles take about\n"
+    "a minute, 2 GB of memory and 600 MB on disk.\n";
 
 int usage_error(const char* why) {
   std::fprintf(stderr, "spanray_make_assets: %s\n%s", why, kUsage);

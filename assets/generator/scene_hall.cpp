@@ -1,5 +1,6 @@
 // A gallery hall: marble, brick, iron, gauze, glass and bronze in late sun. Its detail can be chosen.
 #include <cmath>
+#include <iterator>
 
 #include "hall.h"
 #include "scenes.h"
@@ -58,7 +59,7 @@ map_bump -bm 9 textures/hall_relief_vine_height.png
 newmtl floor
 illum 3
 Kd 0.86 0.86 0.86
-Ks 0.22 0.22 0.22
+Ks 0.26 0.26 0.26
 Ns 400
 map_Kd textures/hall_floor.png
 newmtl marble_rose
@@ -177,7 +178,7 @@ map_Kd textures/limestone.png
 const char* const kToml = R"(# The gallery: sun through garden windows, the cool light of the entrance, lamps; an inlaid floor that mirrors it all.
 obj = "hall.obj"
 background = [0.66, 0.80, 1.0]
-ambient = [0.125, 0.120, 0.120]
+ambient = [0.092, 0.090, 0.094]
 
 [[camera]]
 name = "nave"
@@ -187,8 +188,8 @@ fov_y = 50.0
 
 [[camera]]
 name = "aisle"
-eye = [-4.35, 1.62, -2.2]
-target = [-4.9, 1.75, -12.0]
+eye = [-4.05, 1.62, -5.3]
+target = [-5.0, 1.72, -10.0]
 fov_y = 58.0
 
 [[camera]]
@@ -206,8 +207,8 @@ fov_y = 48.0
 # Late sun, through the windows on the right.
 [[light]]
 kind = "directional"
-direction = [-0.88, -0.34, 0.32]
-intensity = [6.4, 5.1, 3.5]
+direction = [-0.88, -0.215, 0.158]
+intensity = [8.0, 6.1, 3.9]
 
 # What the sunlit floor throws back.
 [[light]]
@@ -218,9 +219,10 @@ attenuation = [9.0, 0.0, 1.0]
 
 # The sky, through the entrance.
 [[light]]
-kind = "directional"
-direction = [0.12, -0.16, -0.98]
-intensity = [0.85, 0.95, 1.12]
+kind = "point"
+position = [0.5, 4.3, 0.2]
+intensity = [23.0, 25.5, 30.0]
+attenuation = [25.0, 0.0, 1.0]
 
 [[light]]
 kind = "point"
@@ -241,6 +243,36 @@ intensity = [10.0, 7.4, 4.4]
 attenuation = [0.8, 0.0, 1.0]
 
 )";
+
+// Stations of the walk: seconds, eye, target. Between them the camera moves on a Catmull-Rom curve, written out in short steps.
+struct Station { double time; Point eye, target; };
+const Station kWalk[] = {
+    {0, {-0.75, 1.62, -0.9}, {0.35, 1.95, -12.0}},   {5, {-0.45, 1.62, -2.6}, {1.9, 1.20, -5.6}},     {9, {0.55, 1.60, -4.6}, {-1.7, 1.40, -6.6}},
+    {13, {0.35, 1.62, -7.4}, {1.9, 1.2, -10.6}},     {17, {0.15, 1.66, -10.4}, {-3.2, 1.7, -13.6}},   {20, {-2.2, 1.66, -13.4}, {-5.4, 1.85, -13.6}},
+    {23, {-4.1, 1.64, -13.4}, {-5.7, 2.15, -13.2}},  {25.5, {-4.25, 1.62, -11.4}, {-4.9, 1.8, -6.0}},   {28, {-4.1, 1.64, -9.2}, {-1.0, 2.2, -6.6}},
+    {31, {-2.5, 1.66, -7.5}, {1.2, 2.4, -11.0}},     {35, {0.2, 1.70, -11.0}, {0.3, 4.5, -18.0}},     {40, {0.3, 1.66, -15.8}, {0.0, 2.05, -21.7}}};
+
+std::string walk_text() {
+  const int stations = static_cast<int>(std::size(kWalk));
+  const auto station = [&](int k) -> const Station& { return kWalk[k < 0 ? 0 : k >= stations ? stations - 1 : k]; };
+  const auto vector_text = [](const Point& p) { return "[" + fixed_text(p.x, 3) + ", " + fixed_text(p.y, 3) + ", " + fixed_text(p.z, 3) + "]"; };
+  std::string text;
+  for (int half_seconds = 0; half_seconds <= 2 * static_cast<int>(kWalk[stations - 1].time); ++half_seconds) {
+    const double time = 0.5 * half_seconds;
+    int k = 0;
+    while (k + 2 < stations && kWalk[k + 1].time <= time) ++k;
+    const Station &a = station(k - 1), &b = station(k), &c = station(k + 1), &d = station(k + 2);
+    const double t = (time - b.time) / (c.time - b.time);
+    const auto between = [&](Point Station::*value) {
+      const Point p = b.*value, q = c.*value, span_b = c.*value - a.*value, span_c = d.*value - b.*value;
+      const double length = c.time - b.time;
+      const Point m = (k == 0 ? Point{0, 0, 0} : (length / (c.time - a.time)) * span_b), n = (k + 2 >= stations ? Point{0, 0, 0} : (length / (d.time - b.time)) * span_c);
+      return (1 - t) * (1 - t) * (1 + 2 * t) * p + t * (1 - t) * (1 - t) * m + t * t * (3 - 2 * t) * q + t * t * (t - 1) * n;
+    };
+    text += "[[path]]\ntime = " + fixed_text(time, 1) + "\neye = " + vector_text(between(&Station::eye)) + "\ntarget = " + vector_text(between(&Station::target)) + "\n";
+  }
+  return text;
+}
 
 const char* const kTomlEnd = R"(
 [technique]
@@ -282,10 +314,16 @@ Detail detail_for(double triangles) {
   const double searched = triangles < 500e3 ? triangles : 500e3;
   Detail best{1};
   double error = 1e9;
-  for (double linear = std::sqrt(searched / kHallTriangles), k = 0; k < 8 && error > 0.02; ++k) {
+  const auto measure = [&](double linear) {
     const double ratio = triangles_at({linear}) / searched;
     if (std::fabs(ratio - 1) < error) best = {linear}, error = std::fabs(ratio - 1);
-    linear /= std::sqrt(ratio);
+    return ratio;
+  };
+  double linear = std::sqrt(searched / kHallTriangles);
+  for (int k = 0; k < 4 && error > 0.02; ++k) linear /= std::sqrt(measure(linear));
+  for (double low = 0.02, high = 4; error > 0.05 && high - low > 0.004;) {  // few triangles: counts go in steps
+    const double middle = 0.5 * (low + high);
+    (measure(middle) < 1 ? low : high) = middle;
   }
   return {best.linear * std::sqrt(triangles / searched)};
 }
@@ -298,7 +336,7 @@ SceneFiles make_hall(double triangles) {
   // Millimeters will do until divisions come near them.
   ObjMesh mesh("hall.mtl", triangles < 400e3 ? ObjMesh::Decimals{4, 3, 3, kHalf} : ObjMesh::Decimals{5, 4, 5, kHalf});
   build(mesh, d);
-  return {mesh, kMtl, std::string(kToml) + kTomlEnd};
+  return {mesh, kMtl, std::string(kToml) + walk_text() + kTomlEnd};
 }
 
 }  // namespace spanray::assets

@@ -171,15 +171,15 @@ double roll_height(double x, double y, const Roll& k) {
   for (int n = 0; n < 2; ++n) {  // radius falls by half of itself a turn
     const double line = k.radius * (1 - 0.42 * (turn + n));
     if (line < 0.2 * k.radius) continue;
-    h = std::max(h, dome(std::fabs(r - line), 0.13 * k.radius, 0.72));
+    h = std::max(h, dome(std::fabs(r - line), 0.17 * k.radius, 0.72));
   }
   for (int lobe = 0; lobe < 5; ++lobe) {
     double s, c;
     sin_cos((0.10 + 0.16 * lobe) * 2 * kPi, &s, &c);
     const double lx = 1.16 * k.radius * c, ly = 1.16 * k.radius * s;
     const double along = (dx - lx) * c + (dy - ly) * s, across = -(dx - lx) * s + (dy - ly) * c;
-    const double q = std::sqrt(along * along / 2.6 + across * across);
-    h = std::max(h, dome(q, 0.15 * k.radius, 0.55) - (std::fabs(across) < 0.012 * k.radius ? 0.10 : 0));
+    const double q = std::sqrt(along * along / 3.2 + across * across);
+    h = std::max(h, dome(q, 0.21 * k.radius, 0.55) - (std::fabs(across) < 0.012 * k.radius ? 0.10 : 0));
   }
   return h;
 }
@@ -190,7 +190,7 @@ double vine_height(double u, double v) {
   double h = rim(u, v);
   for (const Roll& k : kRolls) h = std::max(h, roll_height(x, v, k));
   const double stem = 0.5 - x;
-  if (v > 0.10 && v < 0.80) h = std::max(h, dome(stem, 0.016 + 0.012 * (0.8 - v), 0.80));
+  if (v > 0.10 && v < 0.80) h = std::max(h, dome(stem, 0.022 + 0.016 * (0.8 - v), 0.80));
   const double bud = std::sqrt(stem * stem * 3.2 + (v - 0.815) * (v - 0.815));
   h = std::max(h, dome(bud, 0.085, 0.95) - (fraction(stem * 34) < 0.16 ? 0.12 : 0) * (bud < 0.08 ? 1 : 0));
   h = std::max(h, dome(std::sqrt(stem * stem * 0.35 + (v - 0.115) * (v - 0.115)), 0.045, 0.8));
@@ -201,7 +201,7 @@ double vine_height(double u, double v) {
 Picture relief_color(int size, double (*height)(double, double)) {
   return paint_color(size, size, [=](double u, double v) {
     const double h = height(u, v), cloud = fractal_noise(u * 4, v * 4, 4, 4, 381);
-    const Color c = blend({0.50, 0.41, 0.31}, {0.88, 0.81, 0.69}, smooth_step(-0.15, 0.75, h));
+    const Color c = blend({0.57, 0.48, 0.37}, {0.90, 0.83, 0.71}, smooth_step(-0.15, 0.75, h));
     return c * (1 + 0.08 * cloud);
   });
 }
