@@ -56,7 +56,7 @@ void arcade_side(ObjMesh& mesh, const Detail& d, double side) {
     mesh.object("archivolt_" + where + std::to_string(bay), "stone");
     archivolt(mesh, at, wall, 0.26, 0.06, d.count(18, 8));
   }
-  for (int k = 1; k < kBays; ++k) column(mesh, d, placed({side * kColumnX, 0, axis_z(k)}), "column_" + where + std::to_string(k), side < 0 ? "marble_rose" : "marble_rose");
+  for (int k = 1; k < kBays; ++k) column(mesh, d, placed({side * kColumnX, 0, axis_z(k)}), "column_" + where + std::to_string(k), "marble_rose");
   // Half piers where the colonnade meets the end walls.
   mesh.object("respond_" + where, "ashlar");
   for (const double z : {-0.19, -kLength + 0.19}) {
