@@ -71,7 +71,11 @@ HWY_INLINE F64 f64(double x) {
   return r;
 }
 HWY_INLINE int32_t first_lane(I32 a) { return hn::GetLane(a.v); }
-HWY_INLINE I32 lane_iota(int32_t first = 0) { return {hn::Iota(DI(), first)}; }
+// first, first + 1, ... Not Highway's Iota: it (1.0.3) writes the lanes one by one and reads them back as a vector, which stalls.
+HWY_INLINE I32 lane_iota(int32_t first = 0) {
+  alignas(64) static constexpr int32_t kLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return {hn::Add(hn::Load(DI(), kLane), hn::Set(DI(), first))};
+}
 
 // ---- bits ----------------------------------------------------------------------------------------------------------
 HWY_INLINE I32 bits_of(F32 a) { return {hn::BitCast(DI(), a.v)}; }
@@ -108,11 +112,11 @@ HWY_INLINE bool all(Mask a) { return hn::AllTrue(DF(), a.m); }
 HWY_INLINE int count(Mask a) { return static_cast<int>(hn::CountTrue(DF(), a.m)); }
 // Bit i is lane i; bits past kLanes are 0, and ignored by mask_from_bits.
 HWY_INLINE uint32_t to_bits(Mask a) {
-  alignas(16) uint8_t bytes[16] = {};
+  alignas(16) uint8_t bytes[16];
   hn::StoreMaskBits(DF(), a.m, bytes);
-  uint32_t bits;
-  std::memcpy(&bits, bytes, 4);
-  return bits & ((1ull << kLanes) - 1);
+  uint32_t bits = 0;
+  std::memcpy(&bits, bytes, (kLanes + 7) / 8);  // just what was stored: a wider load would wait for it to reach memory
+  return bits & ((1u << kLanes) - 1);
 }
 HWY_INLINE Mask mask_from_bits(uint32_t bits) {
   alignas(16) uint8_t bytes[16] = {};
