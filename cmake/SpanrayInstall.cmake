@@ -31,5 +31,7 @@ set(spanray_pc_requires "libpng libjpeg libhwy")
 if(NOT SPANRAY_STD_THREADS)
   string(APPEND spanray_pc_requires " tbb")
 endif()
+# Relative to the file itself: `cmake --install --prefix` may choose another place than the configuration.
+file(RELATIVE_PATH spanray_pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/spanray.pc.in ${PROJECT_BINARY_DIR}/spanray.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/spanray.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
