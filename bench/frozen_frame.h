@@ -10,10 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "frame/primary_rays.h"
 #include "raster/raster.h"
 #include "ray/bvh.h"
-#include "render/plan.h"
+#include "render/make_frame.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 #include "spanray/scene.h"
@@ -41,18 +40,10 @@ struct FrozenFrame {
   FrameCounts counts;
 
   FrozenFrame(const std::string& name, Isa isa) : scene(load_shipped(name)) {
-    frame.settings = scene.settings();
-    frame.settings.width = 1280, frame.settings.height = 720, frame.settings.isa = isa, frame.settings.threads = 1;
-    plan = make_plan(scene.data(), find_scene_use(scene.data()), frame.settings);
-    frame.scene = &scene.data();
-    frame.plan = plan.flags;
-    frame.primary = make_primary_rays(scene.cameras()[0], 1280, 720);
-    frame.grid = TileGrid(1280, 720);
-    frame.isa = resolve_isa(isa);
-    frame.parallel = &parallel;
-    frame.material_flags = plan.material_flags.data();
-    frame.accept_row = accept_row;
-    frame.accept_ray = accept_ray;
+    Settings settings = scene.settings();
+    settings.width = 1280, settings.height = 720, settings.isa = isa, settings.threads = 1;
+    plan = make_plan(scene.data(), find_scene_use(scene.data()), settings);
+    frame = make_frame(scene.data(), scene.cameras()[0], settings, plan, parallel);
     transform_vertices(frame, vertices);
     clip_triangles(frame, vertices, bins, counts);
     bin_triangles(frame, bins);

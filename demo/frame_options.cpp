@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/counted.h"
+#include "core/number_text.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {

@@ -1,16 +1,11 @@
 #include "job.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/number_text.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
-
-std::string number_text(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 std::string camera_text(const Camera& c) {
   std::string text;

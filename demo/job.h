@@ -18,9 +18,6 @@ struct Job {
   std::vector<std::string> messages;  // of the loader
 };
 
-// Shortest decimal that reads back as the very same number; independent of the locale.
-std::string number_text(double value);
-
 // "ex,ey,ez,tx,ty,tz,fovy,ux,uy,uz,near": --camera makes the very same camera of it.
 std::string camera_text(const Camera& camera);
 // The same without up and near, where they are those of the scene's first camera.

@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "simd_double_test.cpp"
 #include "hwy/foreach_target.h"
 #include "simd/dispatch.h"
-#include "simd/lanes-inl.h"
+#include "simd/lanes64-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {

@@ -3,8 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -185,22 +183,17 @@ nlohmann::ordered_json json_of(const RayClass& c, const std::vector<Cell>& cells
   return {{"kind", c.name}, {"rays", rays}, {"tracers", modes}};
 }
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "embree_bench: %s\n", error.to_string().c_str());
-  return demo::kCouldNot;
-}
-
-int compare(const Options& o) {
+int compare(const CLI::App& app, const Options& o) {
   Result<demo::Job> loaded = o.frame.load();
-  if (!loaded) return fail(loaded.error());
+  if (!loaded) return fail(app, loaded.error());
   demo::Job& job = loaded.value();
   const int threads = job.settings.threads > 0 ? job.settings.threads : Parallel::available();
   Parallel parallel(threads);
   const TracedScene ours(job.scene, job.camera, job.settings, parallel, o.builds);
   const SceneData& scene = job.scene.data();
   const auto fast = EmbreeTracer::create(scene, false, threads, o.builds), robust = EmbreeTracer::create(scene, true, threads, o.builds);
-  if (!fast) return fail(fast.error());
-  if (!robust) return fail(robust.error());
+  if (!fast) return fail(app, fast.error());
+  if (!robust) return fail(app, robust.error());
   if (o.header) print_header();
   nlohmann::ordered_json line = {{"scene", name_of(o)}, {"scene_hash", job.scene.hash()}, {"triangles", scene.triangles.size()},
                                  {"width", job.settings.width}, {"height", job.settings.height}, {"threads", threads},
@@ -223,13 +216,10 @@ int compare(const Options& o) {
               static_cast<double>(fast.value()->memory_bytes()) * 1e-6, robust.value()->build_ms(),
               static_cast<double>(robust.value()->memory_bytes()) * 1e-6, fast.value()->build_ms() / ours.build_ms,
               robust.value()->build_ms() / ours.build_ms);
-  if (!o.json.empty()) {
-    std::ofstream file(o.json, std::ios::app);
-    file << line.dump() << "\n";
-    if (!file.flush()) return fail(Error{"cannot be written", o.json});
-  }
+  if (!o.json.empty())
+    if (Result<void> done = append_line(o.json, line.dump()); !done) return fail(app, done.error());
   if (o.require_agreement && least < 0.999)
-    return fail(Error{"Embree's robust tree has our answer for only " + std::to_string(100 * least) + " % of the rays; 99.9 % are needed"});
+    return fail(app, Error{"Embree's robust tree has our answer for only " + std::to_string(100 * least) + " % of the rays; 99.9 % are needed"});
   return demo::kDone;
 }
 
@@ -240,12 +230,5 @@ int main(int argc, char** argv) {
   CLI::App app("Our tracer against Embree 3: the same rays, in turns", "embree_bench");
   spanray::peers::Options options;
   spanray::peers::add_options(app, options);
-  try {
-    app.parse(argc, argv);
-    return spanray::peers::compare(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : spanray::demo::kWrongUsage;
-  } catch (const std::exception& error) {
-    return spanray::peers::fail(spanray::Error{error.what()});
-  }
+  return spanray::peers::run(app, argc, argv, [&] { return spanray::peers::compare(app, options); });
 }

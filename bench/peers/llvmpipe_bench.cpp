@@ -2,8 +2,6 @@
 // No shadows, no reflections, no bump; what is translucent is drawn opaque by both. A line of a table on stdout.
 // Exit 0 done, 1 could not (or the pictures disagree and --require-agreement was given), 2 wrong usage, 77 no llvmpipe here.
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -186,10 +184,7 @@ Result<void> write_json(const Options& o, const demo::Job& job, const Comparison
       {"pixels_only_ours", a.only_ours}, {"pixels_only_theirs", a.only_theirs}, {"pixels_by_difference", histogram},
       {"gl", {{"renderer", c.gl_renderer}, {"version", c.gl_version}, {"program", exactness_text(o.exactness)},
               {"shader_srgb", o.exactness.shader_srgb}, {"texels", o.texels == TexelFormat::kSrgb8 ? "srgb8" : "rgba16"}}}};
-  std::ofstream file(o.json, std::ios::app);
-  file << line.dump() << "\n";
-  if (!file.flush()) return Error{"cannot be written", o.json};
-  return {};
+  return append_line(o.json, line.dump());
 }
 
 Result<void> write_pictures(const Options& o, const Comparison& c) {
@@ -200,30 +195,25 @@ Result<void> write_pictures(const Options& o, const Comparison& c) {
   return {};
 }
 
-int fail(const Error& error, int code = demo::kCouldNot) {
-  std::fprintf(stderr, "llvmpipe_bench: %s\n", error.to_string().c_str());
-  return code;
-}
-
-int compare(Options& o) {
+int compare(const CLI::App& app, Options& o) {
   Result<demo::Job> loaded = o.frame.load();
-  if (!loaded) return fail(loaded.error());
+  if (!loaded) return fail(app, loaded.error());
   demo::Job& job = loaded.value();
   restrict_settings(job.settings);
   const auto context = GlContext::create(job.settings.threads);
-  if (!context) return fail(context.error(), kSkipped);
+  if (!context) return fail(app, context.error(), kSkipped);
   const auto gl = make_peer(o, job);
-  if (!gl) return fail(gl.error());
+  if (!gl) return fail(app, gl.error());
   Comparison c;
   c.gl_renderer = context.value()->renderer(), c.gl_version = context.value()->version();
-  if (Result<void> done = run_in_turns(o, job, *gl.value(), c); !done) return fail(done.error());
+  if (Result<void> done = run_in_turns(o, job, *gl.value(), c); !done) return fail(app, done.error());
   print_line(o, job.settings, c);
   if (!o.json.empty())
-    if (Result<void> done = write_json(o, job, c); !done) return fail(done.error());
+    if (Result<void> done = write_json(o, job, c); !done) return fail(app, done.error());
   if (!o.pictures.empty())
-    if (Result<void> done = write_pictures(o, c); !done) return fail(done.error());
+    if (Result<void> done = write_pictures(o, c); !done) return fail(app, done.error());
   if (!o.require_agreement || c.agreement.counts()) return demo::kDone;
-  return fail(Error{"the pictures agree on " + std::to_string(100 * c.agreement.share()) + " % of the pixels; 99.9 % are needed"});
+  return fail(app, Error{"the pictures agree on " + std::to_string(100 * c.agreement.share()) + " % of the pixels; 99.9 % are needed"});
 }
 
 }  // namespace
@@ -233,12 +223,5 @@ int main(int argc, char** argv) {
   CLI::App app("Our renderer against Mesa llvmpipe: the same scene, camera, shading and threads, in turns", "llvmpipe_bench");
   spanray::peers::Options options;
   spanray::peers::add_options(app, options);
-  try {
-    app.parse(argc, argv);
-    return spanray::peers::compare(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : spanray::demo::kWrongUsage;
-  } catch (const std::exception& error) {
-    return spanray::peers::fail(spanray::Error{error.what()});
-  }
+  return spanray::peers::run(app, argc, argv, [&] { return spanray::peers::compare(app, options); });
 }

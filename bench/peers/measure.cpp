@@ -1,6 +1,9 @@
 #include "measure.h"
 
+#include <cstdio>
 #include <ctime>
+#include <exception>
+#include <fstream>
 
 namespace spanray::peers {
 namespace {
@@ -15,5 +18,30 @@ double read_clock(clockid_t clock) {
 
 double wall_ms() { return read_clock(CLOCK_MONOTONIC); }
 double cpu_ms() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
+
+Result<void> append_line(const std::string& path, const std::string& line) {
+  std::ofstream file(path, std::ios::app);
+  file << line << "\n";
+  if (!file.flush()) return Error{"cannot be written", path};
+  return {};
+}
+
+int fail(const CLI::App& app, const Error& error, int code) {
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.to_string().c_str());
+  return code;
+}
+
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& compare) {
+  try {
+    app.parse(argc, argv);
+    return compare();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? demo::kDone : demo::kWrongUsage;
+  } catch (const demo::UsageError& error) {
+    return fail(app, Error{error.what()}, demo::kWrongUsage);
+  } catch (const std::exception& error) {
+    return fail(app, Error{error.what()});
+  }
+}
 
 }  // namespace spanray::peers

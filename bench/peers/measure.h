@@ -1,7 +1,11 @@
-// Clocks and medians.
+// What both programs need around the measuring: clocks, medians, a file of results, main().
 #pragma once
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <vector>
+
+#include "command.h"
 
 namespace spanray::peers {
 
@@ -26,5 +30,14 @@ inline double median(std::vector<double> v) {
   std::nth_element(v.begin(), middle, v.end());
   return *middle;
 }
+
+// Adds a line to a file of JSON lines.
+Result<void> append_line(const std::string& path, const std::string& line);
+
+// Says what went wrong, after the program's name.
+int fail(const CLI::App& app, const Error& error, int code = demo::kCouldNot);
+
+// Parses and runs; the program's exit code.
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& compare);
 
 }  // namespace spanray::peers

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "frame/primary_rays.h"
 #include "math/elementary.h"
 #include "measure.h"
-#include "render/plan.h"
-#include "scene/default_view.h"
+#include "render/make_frame.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -107,21 +105,12 @@ size_t RayClass::count() const {
 TracedScene::TracedScene(const Scene& traced, const Camera& camera, const Settings& settings, Parallel& parallel, int builds) : scene(traced) {
   const SceneData& data = scene.data();
   flags.assign(data.materials.size(), 0);
-  frame.settings = settings;
-  frame.settings.textures = frame.settings.bump = false;
-  frame.settings.culling = Culling::kNone;
-  frame.settings.shading = Shading::kPhong;
-  frame.plan = make_plan(data, find_scene_use(data), frame.settings).flags;
+  Settings traced_settings = settings;
+  traced_settings.textures = traced_settings.bump = false;
+  traced_settings.culling = Culling::kNone;
+  traced_settings.shading = Shading::kPhong;
+  frame = make_frame(data, camera, traced_settings, make_plan(data, find_scene_use(data), traced_settings), parallel);
   frame.plan.bounces = true;  // every surface mirrors here
-  frame.scene = &data;
-  frame.primary = make_primary_rays(camera, settings.width, settings.height);
-  frame.grid = TileGrid(settings.width, settings.height);
-  if (data.light_follows_eye) {
-    eye_light = default_light(data, camera);
-    frame.eye_light = &eye_light;
-  }
-  frame.isa = resolve_isa(settings.isa);
-  frame.parallel = &parallel;
   frame.material_flags = flags.data();
   std::vector<double> ms;
   for (int i = 0; i < builds; ++i) {

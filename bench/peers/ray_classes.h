@@ -21,7 +21,6 @@ struct RayClass {
 struct TracedScene {
   Scene scene;
   std::vector<uint32_t> flags;  // by material: 0
-  Light eye_light;              // of frame, where the scene's only light follows the eye
   Frame frame;
   Bvh bvh;
   double build_ms = 0;  // median

@@ -46,11 +46,11 @@ struct Frame {
   const uint32_t* material_flags = nullptr;  // MaterialFlags by material
   AcceptRowFn accept_row = nullptr;
   AcceptRayFn accept_ray = nullptr;
-  const Light* eye_light = nullptr;  // stands for the scene's only light, where that one follows the eye
+  Light eye_light;  // the scene's only light, where that one follows the eye
 };
 
 inline const Light& light_of(const Frame& frame, int light) {
-  return frame.eye_light != nullptr ? *frame.eye_light : frame.scene->lights[static_cast<size_t>(light)];
+  return frame.scene->light_follows_eye ? frame.eye_light : frame.scene->lights[static_cast<size_t>(light)];
 }
 
 inline uint32_t flags_of(const Frame& frame, uint32_t primitive) {

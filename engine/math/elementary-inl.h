@@ -7,7 +7,7 @@
 #define SPANRAY_ELEMENTARY_INL_H_
 #endif
 
-#include "simd/lanes-inl.h"
+#include "simd/lanes64-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {

@@ -1,21 +1,15 @@
 #include "render/check_request.h"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 
+#include "core/number_text.h"
 #include "simd/isa.h"
 
 namespace spanray {
 namespace {
 
 bool finite3(const double* v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
-// As short as it can be read back: never 0.000000.
-std::string number_text(double x) {
-  char text[40];
-  return std::string(text, std::to_chars(text, text + sizeof text, x).ptr);
-}
 
 Error out_of_range(const char* what, const std::string& value, const std::string& range) {
   return Error{std::string(what) + " " + value + " is out of range: " + range};

@@ -6,13 +6,12 @@
 
 #include "core/fp_env.h"
 #include "frame/ladder.h"
-#include "frame/primary_rays.h"
 #include "raster/raster.h"
 #include "render/check_request.h"
 #include "render/frame_stats.h"
+#include "render/make_frame.h"
 #include "render/plan.h"
 #include "render/tile.h"
-#include "scene/default_view.h"
 
 namespace spanray {
 namespace {
@@ -97,23 +96,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   const Plan plan = make_plan(scene.data(), use, settings);
   const double build_ms = timed_ms([&] { build_trees(plan); });
 
-  Frame frame;
-  frame.scene = &scene.data();
-  frame.settings = settings;
-  frame.plan = plan.flags;
-  frame.primary = make_primary_rays(camera, settings.width, settings.height);
-  frame.grid = TileGrid(settings.width, settings.height);
-  frame.isa = resolve_isa(settings.isa);
-  frame.parallel = parallel.get();
-  frame.material_flags = plan.material_flags.data();
-  frame.accept_row = accept_row;
-  frame.accept_ray = accept_ray;
-  Light eye_light;
-  if (scene.data().light_follows_eye) {
-    eye_light = default_light(scene.data(), camera);
-    frame.eye_light = &eye_light;
-  }
-
+  const Frame frame = make_frame(scene.data(), camera, settings, plan, *parallel);
   resize_output(settings, request, out);
   if (request.ladder != nullptr) {
     request.ladder->begin(settings.width, settings.height);

@@ -5,13 +5,11 @@
 
 #include "catalog/scalar.h"
 #include "core/fp_env.h"
-#include "frame/primary_rays.h"
 #include "image/encode.h"
 #include "raster/raster.h"
 #include "ray/bvh.h"
 #include "render/check_request.h"
-#include "render/plan.h"
-#include "scene/default_view.h"
+#include "render/make_frame.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -64,27 +62,13 @@ class Tracer {
   Parallel parallel_;
   Plan plan_;
   Frame frame_;
-  Light eye_light_;
   Bvh opaque_, translucent_;
   std::unique_ptr<LitVertexCache> lit_vertices_;
 };
 
 Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y)
-    : x_(x), y_(y), parallel_(settings.threads), plan_(make_plan(scene.data(), find_scene_use(scene.data()), settings)) {
-  frame_.scene = &scene.data();
-  frame_.settings = settings;
-  frame_.plan = plan_.flags;
-  frame_.primary = make_primary_rays(camera, settings.width, settings.height);
-  frame_.grid = TileGrid(settings.width, settings.height);
-  frame_.isa = resolve_isa(settings.isa);
-  frame_.parallel = &parallel_;
-  frame_.material_flags = plan_.material_flags.data();
-  frame_.accept_row = accept_row;
-  frame_.accept_ray = accept_ray;
-  if (scene.data().light_follows_eye) {
-    eye_light_ = default_light(scene.data(), camera);
-    frame_.eye_light = &eye_light_;
-  }
+    : x_(x), y_(y), parallel_(settings.threads), plan_(make_plan(scene.data(), find_scene_use(scene.data()), settings)),
+      frame_(make_frame(scene.data(), camera, settings, plan_, parallel_)) {
   // Both engines are asked, whatever the plan says; where the plan has no use for a tree, its answer is only shown.
   opaque_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, 0, parallel_);
   translucent_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, kMaterialTranslucent, parallel_);

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/number_text.h"
 #include "scene/mtl_library.h"
 
 namespace spanray {
@@ -33,10 +33,6 @@ class Converter {
     const float result = value < least ? least : most;
     warn(line, std::string(name) + " " + number_text(value) + " is out of range; " + number_text(result) + " taken");
     return result;
-  }
-  static std::string number_text(float v) {
-    char text[32];
-    return std::string(text, std::to_chars(text, text + sizeof text, v).ptr);
   }
 
   bool color(MtlField field, const char* name, float most, float out[3]) {

@@ -1,15 +1,11 @@
 #include "scene/toml_table.h"
 
-#include <charconv>
 #include <cmath>
+
+#include "core/number_text.h"
 
 namespace spanray {
 namespace {
-
-std::string number_text(double v) {
-  char text[40];
-  return std::string(text, std::to_chars(text, text + sizeof text, v).ptr);
-}
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {

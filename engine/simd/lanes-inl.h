@@ -295,30 +295,6 @@ HWY_INLINE F64 gather(const double* base, I32 index) {
   return r;
 }
 
-// ---- bits of doubles: to take exponents apart and build them ----------------------------------------------------------
-// kLanes 64-bit integers (two's complement, wrapping); lane i corresponds to lane i of F64.
-struct I64 {
-  hn::Vec<DDI> v[kHalves];
-};
-HWY_INLINE I64 i64(int64_t x) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Set(DDI(), x); return r; }
-HWY_INLINE I64 bits_of(F64 a) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::BitCast(DDI(), a.v[h]); return r; }
-HWY_INLINE F64 double_from_bits(I64 a) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::BitCast(DD(), a.v[h]); return r; }
-HWY_INLINE I64 operator+(I64 a, I64 b) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Add(a.v[h], b.v[h]); return r; }
-HWY_INLINE I64 operator-(I64 a, I64 b) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Sub(a.v[h], b.v[h]); return r; }
-HWY_INLINE I64 operator&(I64 a, I64 b) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::And(a.v[h], b.v[h]); return r; }
-HWY_INLINE I64 operator|(I64 a, I64 b) { I64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Or(a.v[h], b.v[h]); return r; }
-template <int kBits> HWY_INLINE I64 shift_left(I64 a) {
-  I64 r;
-  for (int h = 0; h < kHalves; ++h) r.v[h] = hn::ShiftLeft<kBits>(a.v[h]);
-  return r;
-}
-template <int kBits> HWY_INLINE I64 shift_right_logical(I64 a) {
-  const hn::RebindToUnsigned<DDI> du;
-  I64 r;
-  for (int h = 0; h < kHalves; ++h) r.v[h] = hn::BitCast(DDI(), hn::ShiftRight<kBits>(hn::BitCast(du, a.v[h])));
-  return r;
-}
-
 // ---- fused multiply-add ----------------------------------------------------------------------------------------------
 // a * b + c with one rounding, on every target. Where the machine has no fma: the product is exact in double, the sum is
 // rounded to odd, and rounding that to float is then correct (Boldo and Melquiond 2008, "Emulation of FMA and
