@@ -51,9 +51,7 @@ void FrameWorker::run() {
 
 Result<void> FrameWorker::make() {
   try {
-    Settings settings = done_.order.settings;
-    // Neither changes what these views show.
-    if (done_.order.view != View::kColor) settings.shadows = Shadows::kNone, settings.reflections = Reflections::kNone;
+    const Settings settings = settings_of_view(done_.order.view, done_.order.settings);
     FrameRequest request;
     add_request(done_.order.view, request);
     Result<FrameStats> stats = renderer_.render(scene_, done_.order.camera, settings, buffers_, request);

@@ -112,6 +112,9 @@ int render(const RenderOptions& options) {
   Result<Job> job = options.frame.load();
   if (!job) return fail(job.error());
   for (const std::string& text : job.value().messages) message(text);
+  // Radiance and ladder are of the whole frame, whatever the picture shows of it.
+  if (options.radiance.empty() && options.ladder.empty())
+    job.value().settings = settings_of_view(options.view, job.value().settings);
   Framebuffer picture;
   Ladder ladder;
   Result<Measurement> measured = measure(job.value(), options, picture, ladder);

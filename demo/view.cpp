@@ -65,6 +65,16 @@ std::optional<View> view_from_text(const std::string& word) {
   return std::nullopt;
 }
 
+Settings settings_of_view(View view, Settings settings) {
+  if (view == View::kColor) return settings;
+  settings.shadows = Shadows::kNone, settings.reflections = Reflections::kNone;
+  // Cut-outs keep their maps and filter, translucent surfaces their being skipped: they decide what is seen.
+  settings.textures = false;
+  if (view == View::kNormals) return settings;
+  settings.bump = false, settings.shading = Shading::kFlat;
+  return settings;
+}
+
 void add_request(View view, FrameRequest& request) {
   request.depth |= view == View::kDepth;
   request.primitive |= view != View::kColor;

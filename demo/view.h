@@ -18,6 +18,8 @@ const char* view_text(View view);
 std::string view_choices();  // "color|depth|..."
 std::optional<View> view_from_text(const std::string& word);
 
+// The settings to render a view with: without the stages that it does not show. They change no byte of it.
+Settings settings_of_view(View view, Settings settings);
 // What a frame must give for a view.
 void add_request(View view, FrameRequest& request);
 

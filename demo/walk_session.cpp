@@ -139,7 +139,7 @@ void WalkSession::save_picture() const {
   }
   if (name.empty()) return message("no screenshot: spanray-0001.png to spanray-9999.png are all there");
   Job job;
-  job.scene = scene_, job.camera = shown_.order.camera, job.settings = shown_.order.settings;
+  job.scene = scene_, job.camera = shown_.order.camera, job.settings = settings_of_view(shown_.order.view, shown_.order.settings);
   if (auto done = write_png(name, shown_.picture, picture_text(job, shown_.order.view)); !done)
     return message("no screenshot: " + done.error().to_string());
   message("saved " + std::filesystem::absolute(name, ignored).string());

@@ -1,9 +1,12 @@
 // `render --view`: what the pixels of each view mean.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <tuple>
 
 #include "simd/isa.h"
 #include "spanray/image.h"
@@ -82,6 +85,31 @@ TEST_F(ProgramView, IdsAndMaterialsHaveAColorEach) {
   EXPECT_GT(ids.size(), materials.size());
   EXPECT_EQ(4u, materials.size()) << "floor, mirror, red, background; glass is translucent";
   EXPECT_TRUE(ids.count(0) == 1 && materials.count(0) == 1);
+}
+
+TEST_F(ProgramView, WhatAViewDoesNotShowIsLeftOut) {
+  // A request for radiance has the whole frame made: the view's bytes must be those of the frame that leaves out the rest.
+  const std::string gauze = SPANRAY_SOURCE_DIR "/assets/gauze.toml";  // cut-outs, screen-door, bump
+  for (const char* name : {"depth", "ids", "normals", "uv", "materials"})
+    for (const auto& [scene, camera, visibility] :
+         {std::tuple<std::string, std::string, std::string>{scene_, kSmallSceneCamera, "ray"}, {gauze, "gate", "raster"}})
+      EXPECT_TRUE(view(name, scene, camera, {"--visibility", visibility, "--radiance", "all.pfm"}).rgba ==
+                  view(name, scene, camera, {"--visibility", visibility}).rgba)
+          << name << " " << scene;
+  const auto needed = [&](const char* name) {
+    view(name, gauze, "gate", {"--stats", "s.json"});
+    const nlohmann::json stats = nlohmann::json::parse(read_text(folder_.file("s.json")));
+    std::set<std::string> stages;
+    for (const auto& line : stats["plan"])
+      if (line["needed"].get<bool>()) stages.insert(line["stage"].get<std::string>());
+    return stages;
+  };
+  const std::set<std::string> color = needed("color"), ids = needed("ids"), normals = needed("normals");
+  for (const char* stage : {"shadow rays", "BVH", "textures", "bump"}) {
+    EXPECT_TRUE(color.count(stage)) << stage;
+    EXPECT_FALSE(ids.count(stage)) << stage;
+    EXPECT_EQ(stage == std::string("bump"), normals.count(stage) == 1) << stage;
+  }
 }
 
 TEST_F(ProgramView, AreTheSameEverywhereAndColorIsThePicture) {

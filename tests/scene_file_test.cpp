@@ -6,6 +6,7 @@
 #include "math/elementary.h"
 #include "math/vec.h"
 #include "scene/default_view.h"
+#include "support/encode_fixture.h"
 #include "support/scene_files.h"
 
 namespace spanray {
@@ -239,6 +240,26 @@ TEST_F(SceneFileTest, HashCoversWhatReachesAPixelAndNotTheCamera) {
   EXPECT_NE(plain, hash("background = [1,0,0]\n"));
   EXPECT_NE(plain, hash("ambient = [1,0,0]\n"));
   EXPECT_NE(plain, hash("[material.red]\nopacity = 0.5\n"));
+}
+
+TEST_F(SceneFileTest, ATransparencyWithoutEffectIsAWarning) {
+  const std::string obj = "obj = \"a.obj\"\nlight = []\n[[camera]]\neye = [0, 1, 3]\ntarget = [0, 1, 0]\n";  // lines 1 to 5
+  const auto warnings = [&](const std::string& text) { return load(obj + text).loaded.warnings; };
+  for (const char* word : {"mask", "alpha", "screen-door"}) {
+    const Loaded l = load(obj + "[material.red]\nreflectance = \"blinn_phong\"\ntransparency = \"" + word + "\"\n");
+    EXPECT_EQ(l.loaded.warnings, 1u);
+    EXPECT_EQ(l.count({"s.toml:8: warning: material 'red': transparency \"", word, "does nothing", "opacity is 1", "map_d"}), 1)
+        << l.all_messages();
+  }
+  EXPECT_EQ(warnings("[material.\"glass pane\"]\nopacity = 1\ntransparency = \"alpha\"\n"), 1u) << "the scene file's own opacity";
+  EXPECT_EQ(warnings("[material.red]\ntransparency = \"opaque\"\n"), 0u);
+  EXPECT_EQ(warnings("[material.red]\nopacity = 0.5\ntransparency = \"screen-door\"\n"), 0u);
+  EXPECT_EQ(warnings("[material.\"glass pane\"]\ntransparency = \"screen-door\"\n"), 0u);
+  folder_.write("a.mtl", "newmtl red\nmap_d holes.png\nnewmtl glass pane\nd 0.25\n");
+  PngFixture holes;
+  holes.width = 2;
+  folder_.write("holes.png", encode_png_fixture(holes, {std::string("\x10\x20\x30\x40\x50\x60", 6)}));
+  EXPECT_EQ(warnings("[material.red]\ntransparency = \"screen-door\"\n"), 0u) << "a map_d may be anything";
 }
 
 // Eight corners of the bounds and the poles of the sphere project into the picture.

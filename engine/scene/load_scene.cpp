@@ -75,7 +75,7 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   if (!obj) return Error{"obj: " + obj.error().message, path, file.value().obj_line};
   if (Result<void> loaded = load_obj(obj.value(), options, scene, messages); !loaded) return loaded;
   take_scene_file(file.value(), scene);
-  if (Result<void> applied = apply_overrides(file.value(), path, scene); !applied) return applied;
+  if (Result<void> applied = apply_overrides(file.value(), path, scene, messages); !applied) return applied;
   complete(scene, file.value().lights.has_value(), path, options, messages);
   return {};
 }

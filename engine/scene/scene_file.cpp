@@ -143,6 +143,7 @@ void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
     size_t word = 0;
     double opacity = 1;
     if (t.word("transparency", transparency_words(), &word)) o.transparency = static_cast<MaterialTransparency>(word);
+    o.transparency_line = t.line_of("transparency");
     if (t.word("reflectance", reflectance_words(), &word)) o.reflectance = static_cast<int32_t>(word);
     if (t.number("opacity", kUnit, &opacity)) o.opacity = static_cast<float>(opacity);
     o.mirror_given = t.vector3("mirror", kUnit, o.mirror);
@@ -185,7 +186,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   return scene;
 }
 
-Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene) {
+Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene, Messages& messages) {
   for (const MaterialOverride& o : scene_file.materials) {
     const auto it = std::find(scene.material_names.begin(), scene.material_names.end(), o.name);
     if (it == scene.material_names.end())
@@ -203,7 +204,12 @@ Result<void> apply_overrides(const SceneFile& scene_file, const std::string& fil
       else if (m.transparency == alpha && m.opacity == 1)
         m.transparency = opaque;
     }
-    if (o.transparency) m.transparency = static_cast<int32_t>(*o.transparency);
+    if (!o.transparency) continue;
+    m.transparency = static_cast<int32_t>(*o.transparency);
+    if (m.transparency != opaque && m.opacity == 1 && m.map_opacity < 0)
+      messages.warn(file, o.transparency_line,
+                    "material " + quoted(o.name) + ": transparency \"" + kTransparencyWords[m.transparency] +
+                        "\" does nothing: its opacity is 1, and it has no map_d; give it an opacity below 1");
   }
   return {};
 }

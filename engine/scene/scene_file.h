@@ -22,6 +22,7 @@ struct MaterialOverride {
   std::string name;
   int line = 0;
   std::optional<MaterialTransparency> transparency;
+  int transparency_line = 0;
   std::optional<int32_t> reflectance;
   std::optional<float> opacity;
   bool mirror_given = false;
@@ -43,7 +44,7 @@ struct SceneFile {
 // Checks every key: unknown ones, wrong types and values out of range are errors with file and line.
 Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file);
 
-// Applies [material.*] to the materials of `scene`. Error: a name that no material has.
-Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene);
+// Applies [material.*] to the materials of `scene`. Error: a name that no material has. Warning: a transparency without effect.
+Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene, Messages& messages);
 
 }  // namespace spanray
