@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/parallel.h"
@@ -13,14 +14,30 @@
 namespace spanray::demo {
 namespace {
 
-constexpr float kMargin = 8, kWidth = 392, kLabels = 104;
+constexpr float kMargin = 8, kWidth = 392, kLeastWidth = 200, kLabels = 104, kNarrowLabels = 99;
+constexpr float kLeastHelpWidth = 240, kLowWindow = 480;
 constexpr ImU32 kAmber = IM_COL32(240, 176, 82, 255), kDark = IM_COL32(24, 22, 18, 255), kBar = IM_COL32(92, 138, 176, 255),
                 kTrack = IM_COL32(34, 38, 44, 255);
+
+ImVec2 screen() { return ImGui::GetIO().DisplaySize; }
+
+// With its margin at most two fifths of the window, so that the picture stays in sight.
+float panel_width() { return std::clamp(std::floor(0.4f * screen().x) - kMargin, std::min(kLeastWidth, screen().x), kWidth); }
+float labels() { return panel_width() < kWidth ? kNarrowLabels : kLabels; }
+// Where help begins: right of the panel if that is open.
+float help_left(bool panel) { return panel ? kMargin + panel_width() : 0; }
+
+// Goes on below itself where it does not fit.
+void muted(const char* text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+}
 
 void label(const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text);
-  ImGui::SameLine(kLabels);
+  ImGui::SameLine(labels());
 }
 
 // A button of a row of choices; goes to the next line where it does not fit. True if it was clicked.
@@ -28,11 +45,11 @@ bool choice(const char* text, bool chosen, bool first) {
   const float width = ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
   if (!first) {
     // With a scroll bar or without: rows must not jump when it comes.
-    const float right = ImGui::GetWindowPos().x + kWidth - ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize;
+    const float right = ImGui::GetWindowPos().x + panel_width() - ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize;
     if (ImGui::GetItemRectMax().x + 2 + width <= right)
       ImGui::SameLine(0, 2);
     else
-      ImGui::SetCursorPosX(kLabels);
+      ImGui::SetCursorPosX(labels());
   }
   if (chosen) {
     for (const int color : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}) ImGui::PushStyleColor(color, kAmber);
@@ -107,21 +124,23 @@ void draw_times(const WalkSession& session) {
   const double frame = middle(&StageTimes::frame);
   const FrameStats& stats = session.shown().stats;
   ImGui::Text("%.1f ms", frame);
-  ImGui::SameLine(kLabels);
+  ImGui::SameLine(labels());
   ImGui::Text("%.1f frames/s", frame > 0 ? 1000 / frame : 0.0);
-  ImGui::TextDisabled("%dx%d, %s, %d thread%s; median of %zu frame%s", session.shown().picture.width, session.shown().picture.height,
-                      stats.isa.c_str(), stats.threads, stats.threads == 1 ? "" : "s", recent.size(), recent.size() == 1 ? "" : "s");
+  char text[160];
+  std::snprintf(text, sizeof text, "%dx%d, %s, %d thread%s; median of %zu frame%s", session.shown().picture.width,
+                session.shown().picture.height, stats.isa.c_str(), stats.threads, stats.threads == 1 ? "" : "s", recent.size(),
+                recent.size() == 1 ? "" : "s");
+  muted(text);
   ImGui::Spacing();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (const auto& stage : kStages) {
     const double ms = middle(stage.time);
     if (stage.time == &StageTimes::frame || stage.time == &StageTimes::bvh_build) continue;
     ImGui::TextDisabled("%s", stage.name);
-    char text[32];
     std::snprintf(text, sizeof text, "%8.2f", ms);
-    ImGui::SameLine(kLabels - 12);
+    ImGui::SameLine(labels() - 12);
     ImGui::TextUnformatted(text);
-    ImGui::SameLine(kLabels + 56);
+    ImGui::SameLine(labels() + 56);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float whole = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() - 4;
     const float part = frame > 0 ? static_cast<float>(std::clamp(ms / frame, 0.0, 1.0)) * whole : 0;
@@ -129,18 +148,22 @@ void draw_times(const WalkSession& session) {
     if (part >= 1) draw.AddRectFilled({at.x, at.y + 2}, {at.x + part, at.y + 2 + height}, kBar);
     ImGui::Dummy({whole, ImGui::GetTextLineHeight()});
   }
-  if (stats.ms.bvh_build > 0) ImGui::TextDisabled("trees for rays: %.0f ms, once; not part of a frame", stats.ms.bvh_build);
+  if (!(stats.ms.bvh_build > 0)) return;
+  std::snprintf(text, sizeof text, "trees for rays: %.0f ms, once; not part of a frame", stats.ms.bvh_build);
+  muted(text);
 }
 
 void draw_camera(WalkSession& session, const PanelInput& input, PanelAction& action) {
   const Camera& c = input.camera;
-  const auto line = [](const char* name) { ImGui::TextDisabled("%s", name), ImGui::SameLine(kLabels); };
+  const auto line = [](const char* name) { ImGui::TextDisabled("%s", name), ImGui::SameLine(labels()); };
+  const bool narrow = panel_width() < kWidth;
+  const char* const point = narrow ? "%.2f %.2f %.2f" : "%.3f  %.3f  %.3f";
   line("eye");
-  ImGui::Text("%.3f  %.3f  %.3f", c.eye[0], c.eye[1], c.eye[2]);
+  ImGui::Text(point, c.eye[0], c.eye[1], c.eye[2]);
   line("target");
-  ImGui::Text("%.3f  %.3f  %.3f", c.target[0], c.target[1], c.target[2]);
+  ImGui::Text(point, c.target[0], c.target[1], c.target[2]);
   line("angle, near");
-  ImGui::Text("%.2f degrees, %.3g", c.fov_y_degrees, c.near_plane);
+  ImGui::Text(narrow ? "%.2f, %.3g" : "%.2f degrees, %.3g", c.fov_y_degrees, c.near_plane);
   line("speed");
   ImGui::Text("%.3g a second", session.speed());
   label("");
@@ -174,9 +197,7 @@ void draw_plan(WalkSession& session) {
     ImGui::Indent(14);
     line.needed ? ImGui::TextUnformatted(line.stage.c_str()) : ImGui::TextDisabled("%s", line.stage.c_str());
     ImGui::Indent(14);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
-    ImGui::TextWrapped("%s", line.reason.c_str());
-    ImGui::PopStyleColor();
+    muted(line.reason.c_str());
     ImGui::Unindent(28);
   }
 }
@@ -188,28 +209,42 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
 
 PanelAction draw_panel(WalkSession& session, const PanelInput& input) {
   PanelAction action;
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const ImGuiTreeNodeFlags open = screen().y < kLowWindow ? 0 : ImGuiTreeNodeFlags_DefaultOpen;
   ImGui::SetNextWindowPos({kMargin, kMargin});
-  ImGui::SetNextWindowSizeConstraints({kWidth, 0}, {kWidth, std::max(60.0f, screen.y - 2 * kMargin)});
+  ImGui::SetNextWindowSizeConstraints({panel_width(), 0}, {panel_width(), std::max(60.0f, screen().y - 2 * kMargin)});
   ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::PushTextWrapPos(panel_width() - ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize);
   draw_times(session);
   ImGui::Spacing();
-  if (ImGui::CollapsingHeader("Switches", ImGuiTreeNodeFlags_DefaultOpen)) action.changed = draw_switches(session);
-  if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_camera(session, input, action);
-  if (ImGui::CollapsingHeader("Plan: what this scene needs")) draw_plan(session);
+  if (ImGui::CollapsingHeader("Switches", open)) action.changed = draw_switches(session);
+  if (ImGui::CollapsingHeader("Camera", open)) draw_camera(session, input, action);
+  if (ImGui::CollapsingHeader("Plan: what is needed")) draw_plan(session);
+  ImGui::PopTextWrapPos();
   ImGui::End();
   return action;
 }
 
-void draw_help() {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::Begin("keys", nullptr, kFixed);
+bool help_fits_beside_panel() { return screen().x - help_left(true) - 2 * kMargin >= kLeastHelpWidth; }
+
+void draw_help(bool panel) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float column = 0, text = 0;
+  for (const WalkSession::Key& key : WalkSession::keys()) {
+    column = std::max(column, ImGui::CalcTextSize(key.keys).x);
+    text = std::max(text, ImGui::CalcTextSize(key.meaning).x);
+  }
+  const float left = help_left(panel), most = std::max(60.0f, screen().x - left - 2 * kMargin);
+  column += style.WindowPadding.x + 16;
+  ImGui::SetNextWindowPos({std::floor((left + screen().x) / 2), std::floor(screen().y / 2)}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {most, std::max(60.0f, screen().y - 2 * kMargin)});
+  ImGui::Begin("keys", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::PushTextWrapPos(std::min(column + text + 1, most - style.WindowPadding.x));
   for (const WalkSession::Key& key : WalkSession::keys()) {
     ImGui::TextUnformatted(key.keys);
-    ImGui::SameLine(kLabels);
-    ImGui::TextDisabled("%s", key.meaning);
+    ImGui::SameLine(column);
+    muted(key.meaning);
   }
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 
@@ -221,9 +256,8 @@ void draw_hint(const std::string& text) {
 }
 
 void draw_progress(const std::string& scene, const std::string& stage, double fraction, double seconds) {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float width = std::clamp(screen.x - 40, 40.0f, 360.0f);
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  const float width = std::clamp(screen().x - 40, 40.0f, 360.0f);
+  ImGui::SetNextWindowPos({screen().x / 2, screen().y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("progress", nullptr, (kFixed & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoMouseInputs);
   ImGui::TextUnformatted(scene.c_str());

@@ -23,7 +23,9 @@ struct PanelAction {
 };
 
 PanelAction draw_panel(WalkSession& session, const PanelInput& input);
-void draw_help();
+// panel: it is open, and help stays beside it.
+void draw_help(bool panel);
+bool help_fits_beside_panel();
 // One line at the lower left. It takes no clicks.
 void draw_hint(const std::string& text);
 // In the middle: what is done, how far it is (0 to 1, below 0 if nobody knows), for how many seconds.

@@ -47,12 +47,12 @@ const std::vector<WalkSession::Key>& WalkSession::keys() {
                                         {"Q E", "down, up"},
                                         {"Shift", "move faster"},
                                         {"wheel", "walking speed"},
-                                        {"mouse", "look around, a button held; M holds it"},
+                                        {"mouse", "look around: hold a button, or M"},
                                         {"1 2 3", "shading: flat, gouraud, phong"},
-                                        {"H R T B", "shadows, reflections, textures, bump: on or off"},
+                                        {"H R T B", "shadows, reflections, textures, bump"},
                                         {"V", "visibility: raster or ray"},
                                         {"5", "view: color"},
-                                        {"6 7 8 9 0", "view: depth, ids, normals, uv, materials"},
+                                        {"6 7 8 9 0", "depth, ids, normals, uv, materials"},
                                         {"C", "the scene's next camera"},
                                         {"L", "play or stop the scene's camera path"},
                                         {"P", "print the camera, for render --camera"},
@@ -85,7 +85,6 @@ bool WalkSession::press(const std::string& key, const Camera& now) {
   else if (key == "B") s.bump = !s.bump;
   else {
     if (key == "F12") save_picture();
-    if (key == "F1") std::fprintf(stderr, "%s\n", help().c_str());
     if (key == "P") std::printf("%s\n", short_camera_text(now, scene_).c_str()), std::fflush(stdout);
     return false;
   }
@@ -103,9 +102,10 @@ Result<bool> WalkSession::take_frame(int wait_ms) {
 
 const std::vector<PlanLine>& WalkSession::plan() {
   // Sizes and threads ask for no stage; the words are those of all other settings.
-  if (plan_.empty() || settings_words(plan_settings_) != settings_words(settings_)) {
-    plan_ = plan_frame(scene_, settings_);
-    plan_settings_ = settings_;
+  const Settings settings = settings_of_view(view_, settings_);
+  if (plan_.empty() || settings_words(plan_settings_) != settings_words(settings)) {
+    plan_ = plan_frame(scene_, settings);
+    plan_settings_ = settings;
   }
   return plan_;
 }

@@ -78,6 +78,7 @@ class Walk {
   Result<void> take_frame();
   void draw();
   void draw_ui();
+  void show_help(bool show);
   int wait_ms() const;
   bool first_frame_is_late() const { return shown_ == 0 && seconds_since(start_) * 1000 > kQuietMs; }
   double path_length() const { return path_.empty() ? 0 : path_.back().time - path_.front().time; }
@@ -135,8 +136,8 @@ bool Walk::handle(const Input& input) {
     else if (key == "F2") panel_ = !panel_;
     else if (key == "C") jump((camera_index_ + 1) % static_cast<int>(session_.scene().cameras().size()));
     else if (key == "L") play();
+    else if (key == "F1") show_help(!help_);
     else if (session_.press(key, camera_.camera())) dirty_ = true;
-    if (key == "F1") help_ = !help_;
   }
   if (!input.pressed.empty() || input.clicked || (shown_ > 0 && seconds_since(first_shown_) > kHintSeconds)) {
     if (hint_) redraws_ = kSettleDraws;
@@ -213,16 +214,23 @@ void Walk::draw() {
   drawn_ = Clock::now(), new_picture_ = false, drew_ui_ = ui;
 }
 
+// Also on standard error, where it can be read on while walking.
+void Walk::show_help(bool show) {
+  help_ = show;
+  if (help_) std::fprintf(stderr, "%s\n", WalkSession::help().c_str());
+}
+
 void Walk::draw_ui() {
   if (first_frame_is_late()) return draw_progress(options_.name, "making the first frame", -1, seconds_since(start_));
-  if (panel_) {
+  const bool panel = panel_ && !(help_ && !help_fits_beside_panel());
+  if (panel) {
     const PanelAction action = draw_panel(session_, {camera_.camera(), path_, playing_, path_time_});
     dirty_ |= action.changed;
     if (action.camera >= 0) jump(action.camera);
     if (action.play) play();
     if (action.path_time >= 0) playing_ = false, follow_path(action.path_time);
   }
-  if (help_) draw_help();
+  if (help_) draw_help(panel);
   if (hint_) draw_hint("F1 keys   F2 panel   Esc leave");
 }
 

@@ -41,11 +41,28 @@ int differences_beside_panel(const Image& a, const Image& b) {
   return count;
 }
 
+// Where two pictures of one size differ; empty (left > right) where they do not.
+struct Box {
+  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+};
+Box differing(const Image& a, const Image& b) {
+  Box box;
+  if (a.width != b.width || a.height != b.height) return box;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const size_t i = 4 * static_cast<size_t>(y * a.width + x);
+      if (std::equal(&a.rgba[i], &a.rgba[i] + 3, &b.rgba[i])) continue;
+      box.left = std::min(box.left, x), box.right = std::max(box.right, x);
+      box.top = std::min(box.top, y), box.bottom = std::max(box.bottom, y);
+    }
+  return box;
+}
+
 class WalkPanel : public WalkDisplay {
  protected:
   void SetUp() override {
     WalkDisplay::SetUp();
-    size_ = "640x500";
+    size_ = "1000x500";  // the narrowest window with the whole panel
   }
   const std::vector<std::string> camera_ = {"--camera", kSmallSceneCamera};
   std::vector<std::string> with(std::vector<std::string> more) const {
@@ -121,6 +138,7 @@ TEST_F(WalkPanel, HelpAppearsInTheWindowAndOnStandardError) {
   ASSERT_TRUE(shows(picture));
   key("F1");
   EXPECT_TRUE(until([&] { return walk_->error().find("W A S D") != std::string::npos; }));
+  const std::string said = walk_->error();
   EXPECT_TRUE(until([&] {
     const Image now = screen_->grab(window_);
     const size_t center = 4 * static_cast<size_t>(picture.height / 2 * picture.width + picture.width / 2);
@@ -128,6 +146,66 @@ TEST_F(WalkPanel, HelpAppearsInTheWindowAndOnStandardError) {
   }));
   key("F1");
   EXPECT_TRUE(shows(picture));
+  EXPECT_EQ(said, walk_->error()) << "who closes help does not want to read it";
+  leave();
+}
+
+TEST_F(WalkPanel, HelpStaysBesideThePanelWhichLeavesThePictureInSight) {
+  for (const auto& [width, height] : {std::pair{1280, 720}, {640, 360}}) {
+    size_ = std::to_string(width) + "x" + std::to_string(height);
+    const Image picture = rendered(camera_);
+    start(camera_);
+    ASSERT_TRUE(shows(picture)) << size_;
+    // Grabs until two in a row are equal and differ from `before`.
+    const auto settled = [&](const Image& before) {
+      Image now, last;
+      EXPECT_TRUE(until([&] {
+        last = std::move(now), now = screen_->grab(window_);
+        return equal_colors(now, last) && !equal_colors(now, before);
+      }));
+      return now;
+    };
+    key("F2");
+    const Image panel = settled(picture);
+    const Box panel_box = differing(picture, panel);
+    EXPECT_LE(panel_box.right, width * 2 / 5) << size_;
+    EXPECT_GT(panel_box.right, width / 4) << size_;
+    EXPECT_LT(panel_box.bottom, height - 1) << size_;
+    key("F1");
+    const Box help = differing(panel, settled(panel));
+    EXPECT_GT(help.left, panel_box.right) << size_;
+    EXPECT_LT(help.right, width - 1) << size_;
+    EXPECT_GT(help.top, 0) << size_;
+    EXPECT_LT(help.bottom, height - 1) << size_;
+    EXPECT_GT(help.bottom - help.top, 16 * 17) << size_ << ": a row a key";
+    key("F1");
+    EXPECT_TRUE(until([&] { return equal_colors(panel, screen_->grab(window_)); })) << size_;
+    // Below its stages the panel has headers that open and scroll.
+    if (height == 360) {
+      click(60, 280);
+      const Image unfolded = settled(panel);
+      ASSERT_TRUE(screen_->input({"click", "--repeat", "9", "5"}));
+      EXPECT_LE(differing(picture, settled(unfolded)).right, width * 2 / 5);
+    }
+    leave();
+  }
+}
+
+TEST_F(WalkPanel, HelpTakesThePlaceOfThePanelWhereBothDoNotFit) {
+  size_ = "400x300";
+  start(camera_);
+  key("F1");
+  Image help;
+  const Image picture = rendered(camera_);
+  ASSERT_TRUE(until([&] { return differing(picture, help = screen_->grab(window_)).right > 300; }));
+  key("F2");
+  printed_camera();  // F2 was heard
+  EXPECT_TRUE(until([&] { return equal_colors(help, screen_->grab(window_)); }));
+  key("F1");
+  EXPECT_TRUE(until([&] {
+    const Box box = differing(picture, screen_->grab(window_));
+    return box.right >= 0 && box.right < 210;
+  })) << "the panel was only hidden";
   leave();
 }
 

@@ -21,7 +21,7 @@ class XScreen {
   // Starts Xvfb on a free display. ok() is false if it is not installed or does not start.
   XScreen() {
     server_ = std::make_unique<Process>(
-        std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"}, folder_.path());
+        std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"}, folder_.path());
     for (int i = 0; i < 500 && server_->out().find('\n') == std::string::npos && !server_->wait(0); ++i) ::usleep(20000);
     const std::string number = server_->out();
     if (number.find('\n') == std::string::npos) return;
