@@ -33,7 +33,7 @@ std::vector<SoupTriangle> random_soup(uint32_t seed, int n, int materials = 1) {
   return soup;
 }
 
-uint32_t accept_checker(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates) {
+uint32_t accept_checker(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates, int) {
   uint32_t bits = 0;
   for (int i = 0; i < 32; ++i) bits |= static_cast<uint32_t>((x0 + i + y + static_cast<int>(primitive)) & 1) << i;
   (void)candidates;  // more bits than asked for are ignored

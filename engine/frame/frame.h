@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "frame/rays.h"
+#include "frame/samples.h"
 #include "frame/tiles.h"
 #include "scene/scene_data.h"
 #include "simd/isa.h"
@@ -27,9 +28,9 @@ enum MaterialFlags : uint32_t {
 // Answers accept(hit) for primitives whose material is kMaterialMasked: alpha masks (map_d) and screen-door. Both engines ask it
 // through Frame, since stages do not know each other; shade/accept_kernel.cpp implements it. Not called for other primitives.
 struct Frame;
-// For primary rays of pixels in one row: x0 .. x0 + count - 1 (count <= 32) at row y against one primitive. Bit i: pixel
-// x0 + i accepts. Only bits set in `candidates` need be computed.
-using AcceptRowFn = uint32_t (*)(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates);
+// For primary rays of pixels in one row: x0 .. x0 + count - 1 (count <= 32) at row y, all through one place (frame/samples.h),
+// against one primitive. Bit i: pixel x0 + i accepts. Only bits set in `candidates` need be computed.
+using AcceptRowFn = uint32_t (*)(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates, int place);
 // For one ray of a batch against one primitive that it hits.
 using AcceptRayFn = bool (*)(const Frame&, const RayBatch&, int ray, uint32_t primitive);
 
@@ -41,6 +42,7 @@ struct Frame {
   PlanFlags plan;
   PrimaryRays primary;
   TileGrid grid;
+  SamplePlaces places;
   Isa isa = Isa::kScalar;   // concrete
   Parallel* parallel = nullptr;
   const uint32_t* material_flags = nullptr;  // MaterialFlags by material

@@ -32,9 +32,10 @@ struct RayBatch {
   AlignedBuffer<uint32_t> pixel;     // the pixel that started the ray: the screen-door mask, and where results go
   AlignedBuffer<float> origin_dx[3], origin_dy[3], direction_dx[3], direction_dy[3];  // empty without differentials
   int count = 0;
-  // True for rays through the centers of `pixel`: shade/ then takes Frame::primary instead of these rounded numbers, so that
-  // accept(hit) and the surfaces are those of the rasterizer, bit for bit.
+  // True for rays through one place (frame/samples.h) of `pixel`: shade/ then takes Frame::primary instead of these rounded numbers,
+  // so that accept(hit) and the surfaces are those of the rasterizer, bit for bit.
   bool primary = false;
+  int place = 0;
 
   void resize(int n, bool with_differentials) {
     count = n;

@@ -7,18 +7,18 @@
 namespace spanray {
 namespace {
 
-// True if pixel centers of the tile may lie inside: tests each edge at the center of the tile that lies farthest inside it.
+// True if samples of the tile may lie inside: tests each edge at the corner of the samples' bounds that lies farthest inside it.
 // Exact integers, boundaries count as inside.
 class EdgeTest {
  public:
-  explicit EdgeTest(const ScreenTriangle& t) : t_(t) {
+  EdgeTest(const ScreenTriangle& t, const SamplePlaces& samples) : t_(t), samples_(samples) {
     const int64_t area = int64_t{t.x_24_8[1] - t.x_24_8[0]} * (t.y_24_8[2] - t.y_24_8[0]) -
                          int64_t{t.x_24_8[2] - t.x_24_8[0]} * (t.y_24_8[1] - t.y_24_8[0]);
     sign_ = area < 0 ? -1 : 1;
   }
   bool may_cover(const TileGrid& grid, int tile) const {
-    const int64_t left = center(grid.x0(tile)), right = center(grid.x1(tile) - 1);
-    const int64_t top = center(grid.y0(tile)), bottom = center(grid.y1(tile) - 1);
+    const int64_t left = center(grid.x0(tile)) + samples_.left, right = center(grid.x1(tile) - 1) + samples_.right;
+    const int64_t top = center(grid.y0(tile)) + samples_.top, bottom = center(grid.y1(tile) - 1) + samples_.bottom;
     for (int a = 0; a < 3; ++a) {
       const int b = a == 2 ? 0 : a + 1;
       const int64_t dx = int64_t{t_.x_24_8[b] - t_.x_24_8[a]} * sign_, dy = int64_t{t_.y_24_8[b] - t_.y_24_8[a]} * sign_;
@@ -31,17 +31,18 @@ class EdgeTest {
  private:
   static int64_t center(int pixel) { return int64_t{pixel} * kSubpixels + kSubpixels / 2; }
   const ScreenTriangle& t_;
+  const SamplePlaces& samples_;
   int sign_;
 };
 
 struct TileRange { int column0, column1, row0, row1; };  // half-open
 
-TileRange tiles_of(const ScreenTriangle& t, const TileGrid& grid) {
+TileRange tiles_of(const ScreenTriangle& t, const TileGrid& grid, const SamplePlaces& s) {
   const auto [x_min, x_max] = std::minmax({t.x_24_8[0], t.x_24_8[1], t.x_24_8[2]});
   const auto [y_min, y_max] = std::minmax({t.y_24_8[0], t.y_24_8[1], t.y_24_8[2]});
   const auto last = [](int32_t coordinate, int size) { return (std::min(first_center(coordinate), size) + kTileSize - 1) / kTileSize; };
-  return {std::max(first_center(x_min), 0) / kTileSize, last(x_max, grid.width),
-          std::max(first_center(y_min), 0) / kTileSize, last(y_max, grid.height)};
+  return {std::max(first_center(x_min - s.right), 0) / kTileSize, last(x_max - s.left, grid.width),
+          std::max(first_center(y_min - s.bottom), 0) / kTileSize, last(y_max - s.top, grid.height)};
 }
 
 struct Entry { uint32_t tile, triangle; };
@@ -58,15 +59,15 @@ void sort_by_tile(const AlignedBuffer<Entry>& entries, int tiles, std::vector<ui
   start[0] = 0;
 }
 
-void bin_chunk(const TileGrid& grid, BinChunk& chunk) {
+void bin_chunk(const TileGrid& grid, const SamplePlaces& samples, BinChunk& chunk) {
   constexpr int kFewTiles = 4;  // up to so many the edge test costs more than it saves
   AlignedBuffer<Entry> opaque, translucent;
   for (uint32_t i = 0; i < chunk.triangles.size(); ++i) {
     const ScreenTriangle& t = chunk.triangles[i];
-    const TileRange r = tiles_of(t, grid);
+    const TileRange r = tiles_of(t, grid, samples);
     AlignedBuffer<Entry>& entries = (t.flags & kMaterialTranslucent) ? translucent : opaque;
     const bool test = (r.column1 - r.column0) * (r.row1 - r.row0) > kFewTiles;
-    const EdgeTest edges(t);
+    const EdgeTest edges(t, samples);
     for (int row = r.row0; row < r.row1; ++row)
       for (int column = r.column0; column < r.column1; ++column) {
         const int tile = row * grid.columns + column;
@@ -81,7 +82,7 @@ void bin_chunk(const TileGrid& grid, BinChunk& chunk) {
 
 void bin_triangles(const Frame& frame, TileBins& bins) {
   bins.grid = frame.grid;
-  frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int) { bin_chunk(frame.grid, bins.chunks[i]); });
+  frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int) { bin_chunk(frame.grid, frame.places, bins.chunks[i]); });
 }
 
 }  // namespace spanray

@@ -46,7 +46,7 @@ class ChunkClipper {
       } else {
         SnappedPoint p[3];
         for (int i = 0; i < 3; ++i) p[i] = {vertices_.x_24_8[t.vertex[i]], vertices_.y_24_8[t.vertex[i]]};
-        if (covers_a_center(p)) emit(p, setup(t, primitive));
+        if (covers_a_sample(p)) emit(p, setup(t, primitive));
       }
     }
     ++(chunk_.triangles.size() > drawn_before ? counts_.triangles_drawn : counts_.triangles_culled);
@@ -68,16 +68,17 @@ class ChunkClipper {
     const ScreenTriangle original = setup(t, primitive);
     for (int i = 0; i < pieces; ++i) {
       const SnappedPoint p[3] = {polygon[piece[i][0]], polygon[piece[i][1]], polygon[piece[i][2]]};
-      if (covers_a_center(p)) emit(p, original);
+      if (covers_a_sample(p)) emit(p, original);
     }
   }
 
-  // False if there is no area, or no pixel center of the picture within the bounding box.
-  bool covers_a_center(const SnappedPoint p[3]) const {
+  // False if there is no area, or no sample of the picture within the bounding box (conservative with more than one a pixel).
+  bool covers_a_sample(const SnappedPoint p[3]) const {
     const auto [x_min, x_max] = std::minmax({p[0].x_24_8, p[1].x_24_8, p[2].x_24_8});
     const auto [y_min, y_max] = std::minmax({p[0].y_24_8, p[1].y_24_8, p[2].y_24_8});
-    if (std::max(first_center(x_min), 0) >= std::min(first_center(x_max), frame_.grid.width)) return false;
-    if (std::max(first_center(y_min), 0) >= std::min(first_center(y_max), frame_.grid.height)) return false;
+    const SamplePlaces& s = frame_.places;
+    if (std::max(first_center(x_min - s.right), 0) >= std::min(first_center(x_max - s.left), frame_.grid.width)) return false;
+    if (std::max(first_center(y_min - s.bottom), 0) >= std::min(first_center(y_max - s.top), frame_.grid.height)) return false;
     const int64_t area = int64_t{p[1].x_24_8 - p[0].x_24_8} * (p[2].y_24_8 - p[0].y_24_8) -
                          int64_t{p[2].x_24_8 - p[0].x_24_8} * (p[1].y_24_8 - p[0].y_24_8);
     return area != 0;

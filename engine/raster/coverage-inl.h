@@ -38,7 +38,8 @@ HWY_INLINE I32 first_pixel(F64 x, F64 y, F64 dx, F64 dy, F64 row, F64 low, F64 h
 // Spans of a triangle in rows [y_begin, y_end), at most kTileSize, cut to columns [x_low, x_high].
 // Source:   top-left rule: D3D11.3 functional specification 3.4.2. A center on a left edge is inside, on a right edge outside;
 //           rows are top <= y < bottom, which is the rule for horizontal edges.
-// Input:    24.8 corners, |x|, |y| <= 2^23, in any order and winding.
+// Input:    24.8 corners, |x|, |y| <= 2^23 + 2^7 (the guard band, and half a pixel for the offset of a sample), |dx|, |dy| <= 2^24,
+//           in any order and winding.
 // Contract: exact. Proof: dx, dy, x, row are integers, |dx|, dy <= 2^24, |x|, |row| <= 2^23 + 2^8. The products are below 2^49 and
 //           their sum below 2^50: exact in double; so is 256 dy. In a row that an edge meets, its crossing lies between its
 //           end points, so the quotient is at most 2^15 + 1 and its division rounds by at most 2^-38. If the true quotient is an

@@ -14,10 +14,13 @@ void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins
 // Screen triangles -> lists by tile. Parallel. Conservative: a listed triangle need not cover a pixel of the tile.
 void bin_triangles(const Frame& frame, TileBins& bins);
 
-// Opaque and masked triangles of one tile -> nearest primitive and depth of each pixel. Called from a task.
-void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out);
+// Opaque and masked triangles of one tile -> nearest primitive and depth of each pixel, seen at one place of it
+// (frame/samples.h; 0: the center). Called from a task.
+void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out, int place = 0);
 
-// Appends every fragment of translucent triangles that is not behind the opaque depth (>= passes).
-void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out);
+// Appends every fragment of translucent triangles that is not behind the opaque depth (>= passes) of the same place, in order of
+// primitives.
+void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out,
+                           int place = 0);
 
 }  // namespace spanray

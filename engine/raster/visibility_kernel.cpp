@@ -48,18 +48,29 @@ HWY_INLINE void walk_triangle(const TileGrid& grid, int tile, const ScreenTriang
   }
 }
 
-HWY_INLINE Mask ask_accept(const Frame& frame, uint32_t primitive, int x, int y, Mask candidates) {
+HWY_INLINE Mask ask_accept(const Frame& frame, uint32_t primitive, int x, int y, Mask candidates, int place) {
   const uint32_t bits = to_bits(candidates);
-  return bits == 0 ? candidates : mask_from_bits(frame.accept_row(frame, primitive, x, y, bits) & bits);
+  return bits == 0 ? candidates : mask_from_bits(frame.accept_row(frame, primitive, x, y, bits, place) & bits);
 }
 
-HWY_INLINE void draw_opaque(const Frame& frame, int tile, const ScreenTriangle& t, RowSpans& spans, TileHits& out) {
+// The triangle as it is, or moved by the negated offset of a place other than the center: what it covers and how deep it is at
+// pixel centers is then what it covers and how deep it is at that place.
+HWY_INLINE const ScreenTriangle& seen_from(const SamplePlaces& places, int place, const ScreenTriangle& t, ScreenTriangle& moved) {
+  if (place == 0) return t;
+  moved = t;
+  const int32_t dx = places.offset_x_24_8[place], dy = places.offset_y_24_8[place];
+  for (int i = 0; i < 3; ++i) moved.x_24_8[i] -= dx, moved.y_24_8[i] -= dy;
+  moved.depth0 = t.depth0 + dx * (1.0 / kSubpixels) * t.depth_dx + dy * (1.0 / kSubpixels) * t.depth_dy;
+  return moved;
+}
+
+HWY_INLINE void draw_opaque(const Frame& frame, int tile, const ScreenTriangle& t, RowSpans& spans, TileHits& out, int place) {
   const I32 primitive = i32(t.primitive);
   const bool masked = (t.flags & kMaterialMasked) != 0;
   walk_triangle(frame.grid, tile, t, spans, [&](int offset, int x, int y, Mask inside, F32 depth) HWY_ATTR {
     const F32 stored = F32::load(out.depth + offset);
     Mask visible = inside & (depth > stored);
-    if (masked) visible = ask_accept(frame, t.primitive, x, y, visible);
+    if (masked) visible = ask_accept(frame, t.primitive, x, y, visible, place);
     if (!any(visible)) return;
     select(visible, depth, stored).store(out.depth + offset);
     select(visible, primitive, I32::load(out.primitive + offset)).store(out.primitive + offset);
@@ -68,14 +79,15 @@ HWY_INLINE void draw_opaque(const Frame& frame, int tile, const ScreenTriangle& 
 
 // Nearest primitive of each pixel; of equal depths the lowest id, since lists are in order of ids and only nearer passes.
 // Source:   visibility buffer: Burns and Hunt 2013, JCGT 2(2).
-void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out) {
+void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out, int place) {
   std::fill_n(out.primitive, kTilePixels, kNoPrimitive);
   std::fill_n(out.depth, kTilePixels, 0.0f);
   RowSpans spans;
+  ScreenTriangle moved;
   for (const BinChunk& chunk : bins.chunks) {
     const uint32_t end = chunk.opaque_start[static_cast<size_t>(tile) + 1];
     for (uint32_t i = chunk.opaque_start[static_cast<size_t>(tile)]; i < end; ++i)
-      draw_opaque(frame, tile, chunk.triangles[chunk.opaque[i]], spans, out);
+      draw_opaque(frame, tile, seen_from(frame.places, place, chunk.triangles[chunk.opaque[i]], moved), spans, out, place);
   }
 }
 
@@ -107,17 +119,18 @@ HWY_INLINE void append_fragments(uint32_t bits, int x, int y, uint32_t primitive
   }
 }
 
-void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out) {
+void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out, int place) {
   RowSpans spans;
+  ScreenTriangle moved;
   SeenPixels seen;
   for (const BinChunk& chunk : bins.chunks) {
     const uint32_t end = chunk.translucent_start[static_cast<size_t>(tile) + 1];
     for (uint32_t i = chunk.translucent_start[static_cast<size_t>(tile)]; i < end; ++i) {
-      const ScreenTriangle& t = chunk.triangles[chunk.translucent[i]];
+      const ScreenTriangle& t = seen_from(frame.places, place, chunk.triangles[chunk.translucent[i]], moved);
       seen.start(t.primitive);
       walk_triangle(frame.grid, tile, t, spans, [&](int offset, int x, int y, Mask inside, F32 depth) HWY_ATTR {
         Mask visible = inside & (depth >= F32::load(opaque.depth + offset));
-        if (t.flags & kMaterialMasked) visible = ask_accept(frame, t.primitive, x, y, visible);
+        if (t.flags & kMaterialMasked) visible = ask_accept(frame, t.primitive, x, y, visible, place);
         const uint32_t bits = to_bits(visible);
         if (bits != 0) append_fragments(seen.add(offset, bits), x, y, t.primitive, out);
       });
@@ -136,11 +149,11 @@ namespace spanray {
 const RasterizeTileFn kRasterizeTile[kIsaCount] = SPANRAY_KERNEL_TABLE(rasterize_tile);
 const RasterizeTranslucentFn kRasterizeTranslucent[kIsaCount] = SPANRAY_KERNEL_TABLE(rasterize_translucent);
 
-void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out) {
-  kRasterizeTile[isa_index(frame.isa)](frame, bins, tile, out);
+void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out, int place) {
+  kRasterizeTile[isa_index(frame.isa)](frame, bins, tile, out, place);
 }
-void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out) {
-  kRasterizeTranslucent[isa_index(frame.isa)](frame, bins, tile, opaque, out);
+void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out, int place) {
+  kRasterizeTranslucent[isa_index(frame.isa)](frame, bins, tile, opaque, out, place);
 }
 
 }  // namespace spanray

@@ -63,9 +63,9 @@ HWY_INLINE Mask accept_lanes(const Frame& frame, const HitLanes& hits, const Mat
 // Which of up to 32 rays accept one primitive.
 // Source:   alpha test: opacity >= 1/2. Screen-door: ordered dither, Bayer 1973.
 // Contract: a function of ray (through its pixel for primary rays), primitive and frame alone, so both engines agree.
-uint32_t accept(const Frame& frame, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates) {
+uint32_t accept(const Frame& frame, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
   const Material& material = frame.scene->materials[material_of(frame.scene->triangles[primitive])];
-  HitLanes hits{rays, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive};
+  HitLanes hits{rays, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive, rays != nullptr ? rays->place : place};
   if (rays != nullptr) {
     hits.ray = i32(x0);
     hits.pixel = i32(rays->pixel[static_cast<size_t>(x0)]);
@@ -91,12 +91,12 @@ namespace spanray {
 
 const AcceptFn kAccept[kIsaCount] = SPANRAY_KERNEL_TABLE(accept);
 
-uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates) {
-  return kAccept[isa_index(frame.isa)](frame, nullptr, primitive, x0, y, candidates);
+uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
+  return kAccept[isa_index(frame.isa)](frame, nullptr, primitive, x0, y, candidates, place);
 }
 
 bool accept_ray(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive) {
-  return kAccept[isa_index(frame.isa)](frame, &rays, primitive, ray, 0, 1u) != 0;
+  return kAccept[isa_index(frame.isa)](frame, &rays, primitive, ray, 0, 1u, 0) != 0;
 }
 
 }  // namespace spanray

@@ -21,6 +21,7 @@ struct HitLanes {
   Mask valid;
   bool uniform;             // one primitive in all lanes: loads become broadcasts, the arithmetic stays the same
   uint32_t first_primitive;  // of lane 0
+  int place = 0;             // of all, in their pixels (frame/samples.h); primary rays only
 };
 
 struct RayLanes { V3d origin, direction; };
@@ -68,7 +69,8 @@ HWY_INLINE V3d gather3(const AlignedBuffer<float> (&a)[3], I32 index) {
 HWY_INLINE RayLanes load_rays(const Frame& frame, const HitLanes& hits) {
   if (const RayBatch* rays = secondary(hits.rays)) return {gather3(rays->origin, hits.ray), gather3(rays->direction, hits.ray)};
   const PrimaryRays& p = frame.primary;
-  const F64 x = to_f64(hits.pixel & i32(0xffff)) + f64(0.5), y = to_f64(shift_right_logical<16>(hits.pixel)) + f64(0.5);
+  const F64 x = to_f64(hits.pixel & i32(0xffff)) + f64(frame.places.x[hits.place]);
+  const F64 y = to_f64(shift_right_logical<16>(hits.pixel)) + f64(frame.places.y[hits.place]);
   return {broadcast(p.eye), broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y};
 }
 

@@ -37,7 +37,7 @@ struct SurfaceBatch {
 void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out);
 
 // accept(hit) for both engines: see frame/frame.h.
-uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates);
+uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place = 0);
 bool accept_ray(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive);
 
 }  // namespace spanray

@@ -8,8 +8,8 @@ namespace spanray {
 using ResolveFn = void (*)(const Frame&, const HitBatch&, SurfaceBatch&);
 extern const ResolveFn kResolve[kIsaCount];
 
-// Bit i: ray i accepts `primitive`. rays == nullptr: ray i is that of pixel (x0 + i, y); else all are ray x0 of *rays.
-using AcceptFn = uint32_t (*)(const Frame&, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates);
+// Bit i: ray i accepts `primitive`. rays == nullptr: ray i is that of pixel (x0 + i, y) at `place`; else all are ray x0 of *rays.
+using AcceptFn = uint32_t (*)(const Frame&, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates, int place);
 extern const AcceptFn kAccept[kIsaCount];
 
 }  // namespace spanray

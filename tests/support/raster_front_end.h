@@ -30,7 +30,7 @@ struct Picture {
   float z(int x, int y) const { return depth[static_cast<size_t>(y * width + x)]; }
 };
 
-inline Picture rasterize(const Frame& frame, const TileBins& bins) {
+inline Picture rasterize(const Frame& frame, const TileBins& bins, int place = 0) {
   const TileGrid& grid = frame.grid;
   Picture p{grid.width, grid.height, {}, {}};
   p.primitive.resize(static_cast<size_t>(grid.width * grid.height));
@@ -38,7 +38,7 @@ inline Picture rasterize(const Frame& frame, const TileBins& bins) {
   frame.parallel->for_each(static_cast<size_t>(grid.count()), [&](size_t i, int) {
     const int tile = static_cast<int>(i);
     const auto hits = std::make_unique<TileHits>();
-    rasterize_tile(frame, bins, tile, *hits);
+    rasterize_tile(frame, bins, tile, *hits, place);
     for (int y = grid.y0(tile); y < grid.y1(tile); ++y)
       for (int x = grid.x0(tile); x < grid.x1(tile); ++x) {
         const int from = (y - grid.y0(tile)) * kTileSize + x - grid.x0(tile);
@@ -51,20 +51,20 @@ inline Picture rasterize(const Frame& frame, const TileBins& bins) {
 inline Picture rasterize(const Frame& frame) { return rasterize(frame, run_front_end(frame).bins); }
 
 // Every fragment of the translucent triangles in front of `opaque`, tile after tile.
-inline FragmentList all_fragments(const Frame& frame, const TileBins& bins) {
+inline FragmentList all_fragments(const Frame& frame, const TileBins& bins, int place = 0) {
   FragmentList list;
   const auto hits = std::make_unique<TileHits>();
   for (int tile = 0; tile < frame.grid.count(); ++tile) {
-    rasterize_tile(frame, bins, tile, *hits);
-    rasterize_translucent(frame, bins, tile, *hits, list);
+    rasterize_tile(frame, bins, tile, *hits, place);
+    rasterize_translucent(frame, bins, tile, *hits, list, place);
   }
   return list;
 }
 
 // +1 a fragment: the scene's materials must be translucent (see translucent_material).
-inline std::vector<int> count_fragments(const Frame& frame, const TileBins& bins) {
+inline std::vector<int> count_fragments(const Frame& frame, const TileBins& bins, int place = 0) {
   std::vector<int> count(static_cast<size_t>(frame.grid.width * frame.grid.height), 0);
-  for (const uint32_t pixel : all_fragments(frame, bins).pixel)
+  for (const uint32_t pixel : all_fragments(frame, bins, place).pixel)
     ++count[static_cast<size_t>((pixel >> 16) * static_cast<uint32_t>(frame.grid.width) + (pixel & 0xffff))];
   return count;
 }
