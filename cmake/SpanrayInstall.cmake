@@ -1,11 +1,11 @@
-# cmake --install: library, public headers, program, and what find_package(spanray CONFIG) and pkg-config need.
+# cmake --install: library, public headers, programs, and what find_package(spanray CONFIG) and pkg-config need.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS spanray EXPORT spanrayTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/include/spanray DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET spanray_program)
-  install(TARGETS spanray_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS spanray_program spanray_make_assets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 set(spanray_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spanray)

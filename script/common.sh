@@ -31,5 +31,18 @@ build() {
   if [ $# -gt 0 ]; then cmake --build "$root/$dir" -j "$jobs" --target "$@" >&2
   else cmake --build "$root/$dir" -j "$jobs" >&2; fi
 }
+# expect_build FILE CPU_MINUTES WHAT: before FILE was ever built, says how long that takes.
+expect_build() {
+  [ ! -e "$1" ] || return 0
+  local minutes=$((($2 + jobs - 1) / jobs)) processors=processors
+  [ "$jobs" -ne 1 ] || processors=processor
+  say "first build of $3: about $2 minutes of processor time, so up to $minutes min on $jobs $processors"
+}
+# frame_ms FILE: the median frame time in statistics of `spanray render`, as "N.N ms"; nothing if there is none.
+frame_ms() {
+  local ms
+  ms=$(sed -nE 's/^ *"frame": *([0-9]+(\.[0-9]+)?),?$/\1/p' "$1" 2>/dev/null | head -n 1)
+  [ -z "$ms" ] || LC_ALL=C printf '%.1f ms' "$ms"
+}
 # Inside $root, since presets are looked up there; build/ must exist for the logs.
 enter_root() { cd "$root" && mkdir -p build out; }
