@@ -70,6 +70,7 @@ HWY_INLINE F64 f64(double x) {
   for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Set(DD(), x);
   return r;
 }
+HWY_INLINE float min_of_lanes(F32 a) { return hn::GetLane(hn::MinOfLanes(DF(), a.v)); }  // no NaN
 HWY_INLINE int32_t first_lane(I32 a) { return hn::GetLane(a.v); }
 // first, first + 1, ... Not Highway's Iota: it (1.0.3) writes the lanes one by one and reads them back as a vector, which stalls.
 HWY_INLINE I32 lane_iota(int32_t first = 0) {
@@ -129,9 +130,14 @@ HWY_INLINE Mask first_lanes(int n) { return {hn::FirstN(DF(), n < 0 ? 0 : n < kL
 HWY_INLINE F32 select(Mask m, F32 yes, F32 no) { return {hn::IfThenElse(m.m, yes.v, no.v)}; }
 HWY_INLINE I32 select(Mask m, I32 yes, I32 no) { return {hn::IfThenElse(hn::RebindMask(DI(), m.m), yes.v, no.v)}; }
 
-// b if a is NaN, and b if both are zeros: the x86 rule, written out so that every target has it.
+// b if a is NaN, and b if both are zeros: the x86 rule. There it is one instruction; elsewhere it is written out.
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+HWY_INLINE F32 min_(F32 a, F32 b) { return {hn::Min(a.v, b.v)}; }
+HWY_INLINE F32 max_(F32 a, F32 b) { return {hn::Max(a.v, b.v)}; }
+#else
 HWY_INLINE F32 min_(F32 a, F32 b) { return select(a < b, a, b); }
 HWY_INLINE F32 max_(F32 a, F32 b) { return select(a > b, a, b); }
+#endif
 HWY_INLINE F32 clamp_(F32 x, F32 low, F32 high) { return min_(max_(x, low), high); }  // NaN -> low
 
 // ---- integers (two's complement, wrapping) -----------------------------------------------------------------------------
@@ -158,8 +164,8 @@ HWY_INLINE Mask less_unsigned(I32 a, I32 b) {
   return {hn::RebindMask(DF(), hn::Lt(hn::BitCast(du, a.v), hn::BitCast(du, b.v)))};
 }
 HWY_INLINE Mask operator>(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Gt(a.v, b.v))}; }
-HWY_INLINE I32 min_(I32 a, I32 b) { return select(a < b, a, b); }
-HWY_INLINE I32 max_(I32 a, I32 b) { return select(a > b, a, b); }
+HWY_INLINE I32 min_(I32 a, I32 b) { return {hn::Min(a.v, b.v)}; }
+HWY_INLINE I32 max_(I32 a, I32 b) { return {hn::Max(a.v, b.v)}; }
 
 // ---- conversion ------------------------------------------------------------------------------------------------------
 HWY_INLINE F32 to_f32(I32 a) { return {hn::ConvertTo(DF(), a.v)}; }  // round to nearest even
@@ -192,6 +198,16 @@ HWY_INLINE F32 gather(const float* base, I32 index) { return {hn::GatherIndex(DF
 HWY_INLINE I32 gather(const int32_t* base, I32 index) { return {hn::GatherIndex(DI(), base, index.v)}; }
 HWY_INLINE I32 gather(const uint32_t* base, I32 index) {
   return gather(reinterpret_cast<const int32_t*>(base), index);
+}
+
+// The lanes of `m`, packed, to p[0 .. count(m)); writes a whole vector. Returns count(m).
+HWY_INLINE int compress_store(I32 a, Mask m, int32_t* p) {
+  hn::StoreU(hn::Compress(a.v, hn::RebindMask(DI(), m.m)), DI(), p);
+  return count(m);
+}
+HWY_INLINE int compress_store(F32 a, Mask m, float* p) {
+  hn::StoreU(hn::Compress(a.v, m.m), DF(), p);
+  return count(m);
 }
 
 // The two halves of 64-bit word `index` of base.
@@ -228,8 +244,13 @@ HWY_INLINE F64 select_eq(F64 a, F64 b, F64 yes, F64 no) {
   for (int h = 0; h < kHalves; ++h) r.v[h] = hn::IfThenElse(hn::Eq(a.v[h], b.v[h]), yes.v[h], no.v[h]);
   return r;
 }
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+HWY_INLINE F64 min_(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Min(a.v[h], b.v[h]); return r; }
+HWY_INLINE F64 max_(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Max(a.v[h], b.v[h]); return r; }
+#else
 HWY_INLINE F64 min_(F64 a, F64 b) { return select_lt(a, b, a, b); }
 HWY_INLINE F64 max_(F64 a, F64 b) { return select_lt(b, a, a, b); }
+#endif
 
 HWY_INLINE F64 to_f64(F32 a) {
   F64 r;
@@ -271,6 +292,15 @@ HWY_INLINE I32 to_i32(F64 a) {
 HWY_INLINE I32 ceil_i32(F64 a) {
   const F64 t = to_f64(to_i32(a));
   return to_i32(select_lt(t, a, t + f64(1.0), t));
+}
+// Nearest integer, halves to even, for |a| < 2^31; anything for others. The sum's last place is worth 1: it rounds there.
+HWY_INLINE I32 nearest_i32_small(F64 a) {
+  const F64 sum = a + f64(6755399441055744.0);  // 1.5 * 2^52
+#if HWY_TARGET == HWY_SCALAR
+  return {hn::Set(DI(), static_cast<int32_t>(hn::GetLane(hn::BitCast(DDI(), sum.v[0]))))};
+#else
+  return {hn::ConcatEven(DI(), hn::BitCast(DI(), sum.v[1]), hn::BitCast(DI(), sum.v[0]))};
+#endif
 }
 // Nearest integer, halves up; saturates as to_i32, NaN -> -2147483646. No double rounding: a - floor(a) is exact or above 1/2.
 HWY_INLINE I32 round_i32(F64 a) {

@@ -1,0 +1,69 @@
+// Hierarchical z of one tile: what lies behind everything in a block need not be drawn there. Included once per target.
+#if defined(SPANRAY_TILE_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_TILE_DEPTH_INL_H_
+#undef SPANRAY_TILE_DEPTH_INL_H_
+#else
+#define SPANRAY_TILE_DEPTH_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "raster/setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+
+// The farthest depth of each 16 x 16 block, and of each quarter of the tile. A lower bound: depths only grow.
+class TileDepth {
+ public:
+  void clear() { std::fill_n(farthest_, kBlocks + 4, 0.0f); }
+
+  void refresh(const float* depth, const TileFrame& tile) {
+    for (int by = 0; by < kPerSide; ++by)
+      for (int bx = 0; bx < kPerSide; ++bx) farthest_[by * kPerSide + bx] = block(depth, tile, bx, by);
+    for (int q = 0; q < 4; ++q) {
+      const float* const f = farthest_ + (q / 2) * 2 * kPerSide + (q % 2) * 2;
+      farthest_[kBlocks + q] = std::min({f[0], f[1], f[kPerSide], f[kPerSide + 1]});
+    }
+  }
+
+  // Lanes whose box may show a pixel of depth `nearest`; equal depth may. Boxes without pixels give anything.
+  HWY_INLINE Mask may_show(const BoxLanes& box, F32 nearest) const {
+    const Mask small = (box.x1 - box.x0 < i32(kBlock + 2)) & (box.y1 - box.y0 < i32(kBlock + 2));
+    // A box this small meets at most two blocks either way; any box meets at most two quarters.
+    const I32 shift = select(small, i32(4), i32(5)), stride = select(small, i32(kPerSide), i32(2));
+    const I32 base = select(small, I32::zero(), i32(kBlocks));
+    const I32 last = i32(kTileSize - 1), one = i32(1);
+    const auto at = [&](I32 v, I32 limit) HWY_ATTR { return shift_right_by(max_(min_(v, limit), I32::zero()), shift); };
+    const I32 left = at(box.x0, last), right = at(box.x1 - one, last);
+    const I32 top = at(box.y0, last) * stride + base, bottom = at(box.y1 - one, last) * stride + base;
+    const F32 f = min_(min_(gather(farthest_, top + left), gather(farthest_, top + right)),
+                       min_(gather(farthest_, bottom + left), gather(farthest_, bottom + right)));
+    return nearest >= f;
+  }
+
+ private:
+  static constexpr int kBlock = 16, kPerSide = kTileSize / kBlock, kBlocks = kPerSide * kPerSide;
+
+  // Pixels past the end of the picture do not count.
+  static HWY_INLINE float block(const float* depth, const TileFrame& tile, int bx, int by) {
+    const int x0 = bx * kBlock, y0 = by * kBlock, y1 = std::min(y0 + kBlock, tile.rows);
+    const F32 nearest = f32(1.0f);
+    F32 least = nearest;
+    for (int x = x0; x < x0 + kBlock; x += kLanes) {
+      const Mask in_picture = lane_iota(x) < i32(tile.columns);
+      for (int y = y0; y < y1; ++y) least = min_(least, select(in_picture, F32::load(depth + y * kTileSize + x), nearest));
+    }
+    return min_of_lanes(least);
+  }
+
+  float farthest_[kBlocks + 4];
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_TILE_DEPTH_INL_H_
