@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/number_text.h"
+#include "frame/samples.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
@@ -115,6 +116,14 @@ void FrameOptions::add_to(CLI::App& command) {
   add_word(command, "--filter", &Settings::filter, "Texture filter");
   add_word(command, "--transparency", &Settings::transparency, "How surfaces with opacity below 1 look");
   add_word(command, "--culling", &Settings::culling, "Faces to leave out");
+  const auto samples = [this](const std::string& text) {
+    int count = 0;
+    if (!parse_number(text, count) || !sample_count_ok(count))
+      throw CLI::ValidationError("--samples", "'" + text + "' is not 1, 4, 8 or 16 samples a pixel");
+    changes_.push_back([count](Settings& settings) { settings.samples = count; });
+  };
+  command.add_option_function<std::string>("--samples", samples, "Anti-aliasing: samples a pixel")->type_name("1|4|8|16");
+  add_word(command, "--antialiasing", &Settings::antialiasing, "With more than one sample: shade once a surface, or every sample");
   add_switch(command, "--no-textures", &Settings::textures, "Material colors only");
   add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");

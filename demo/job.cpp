@@ -33,6 +33,8 @@ std::vector<std::pair<std::string, std::string>> settings_words(const Settings& 
           {"filter", enum_text(s.filter)},
           {"transparency", enum_text(s.transparency)},
           {"culling", enum_text(s.culling)},
+          {"samples", std::to_string(s.samples)},
+          {"antialiasing", enum_text(s.antialiasing)},
           {"textures", s.textures ? "on" : "off"},
           {"bump", s.bump ? "on" : "off"}};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "core/parallel.h"
 #include "simd/isa.h"
@@ -88,6 +89,16 @@ bool number_row(const char* name, int& value, int low, int high, const char* for
   return changed;
 }
 
+bool samples_row(int& samples) {
+  bool changed = false;
+  ImGui::PushID("samples");
+  label("samples");
+  for (const int count : {1, 4, 8, 16})
+    if (choice(std::to_string(count).c_str(), samples == count, count == 1) && samples != count) samples = count, changed = true;
+  ImGui::PopID();
+  return changed;
+}
+
 bool draw_switches(WalkSession& session) {
   Settings& s = session.settings();
   bool changed = false, first = true;
@@ -104,6 +115,8 @@ bool draw_switches(WalkSession& session) {
   changed |= enum_row("filter", s.filter);
   changed |= enum_row("transparency", s.transparency);
   changed |= enum_row("culling", s.culling);
+  changed |= samples_row(s.samples);
+  if (s.samples > 1) changed |= enum_row("antialiasing", s.antialiasing);
   label("maps");
   changed |= on_off("textures", s.textures, true);
   changed |= on_off("bump", s.bump, false);

@@ -68,6 +68,7 @@ std::optional<View> view_from_text(const std::string& word) {
 Settings settings_of_view(View view, Settings settings) {
   if (view == View::kColor) return settings;
   settings.shadows = Shadows::kNone, settings.reflections = Reflections::kNone;
+  settings.samples = 1;  // of one surface: a mean of two ids or depths names neither
   // Cut-outs keep their maps and filter, translucent surfaces their being skipped: they decide what is seen.
   settings.textures = false;
   if (view == View::kNormals) return settings;

@@ -26,6 +26,7 @@ TEST(SettingsText, EveryValueHasOneWordAndTheWordGivesItBack) {
   check_round_trip<Filter>(3);
   check_round_trip<Transparency>(4);
   check_round_trip<Culling>(2);
+  check_round_trip<Antialiasing>(2);
 }
 
 TEST(SettingsText, WordsOfTheCommandLine) {

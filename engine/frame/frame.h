@@ -16,7 +16,7 @@ namespace spanray {
 struct PlanFlags {
   bool raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
-  bool textures = false, bump = false, lit_vertices = false, emission = false, ambient = false, specular = false;
+  bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
 };
 
 // What a material means to visibility in this frame: Settings::transparency may override the material's own wish.
@@ -43,6 +43,7 @@ struct Frame {
   PrimaryRays primary;
   TileGrid grid;
   SamplePlaces places;
+  double footprint = 1;     // side of the square that is shaded at once, in pixels: less than 1 if every sample is
   Isa isa = Isa::kScalar;   // concrete
   Parallel* parallel = nullptr;
   const uint32_t* material_flags = nullptr;  // MaterialFlags by material
@@ -74,7 +75,7 @@ inline double facing(const SceneData& scene, const Triangle& t, const glm::dvec3
 // Integers only: sums do not depend on the order of tasks.
 struct FrameCounts {
   uint64_t triangles_in = 0, triangles_invalid = 0, triangles_clipped = 0, triangles_culled = 0, triangles_drawn = 0;
-  uint64_t pixels_covered = 0, fragments_translucent = 0;
+  uint64_t pixels_covered = 0, surfaces_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
   uint64_t vertices_lit = 0;
 };

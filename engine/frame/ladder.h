@@ -25,6 +25,10 @@ class Ladder {
     uint64_t& state = pixels_[static_cast<int>(rung)][static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
     state = mix64(state ^ word) + 0x9e3779b97f4a7c15ull;
   }
+  // The same, whatever the order of the words.
+  void add(Rung rung, int x, int y, uint64_t word) {
+    pixels_[static_cast<int>(rung)][static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)] += mix64(word);
+  }
   void set_primitive(int x, int y, uint32_t primitive) {
     primitive_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)] = primitive;
   }

@@ -54,7 +54,7 @@ struct RayBatch {
   }
 };
 
-// What was hit: by primary rays of the named pixels (rays == nullptr), or by (*rays)[ray[i]].
+// What was hit: by primary rays of the named pixels (rays == nullptr) through `place`, or by (*rays)[ray[i]].
 // Entries with primitive == kNoPrimitive are misses.
 struct HitBatch {
   const RayBatch* rays = nullptr;
@@ -62,6 +62,7 @@ struct HitBatch {
   AlignedBuffer<uint32_t> ray;        // index into rays; unused for primary rays
   AlignedBuffer<uint32_t> primitive;
   AlignedBuffer<uint32_t> instance;   // empty: all are instance 0
+  AlignedBuffer<uint32_t> place;      // of primary rays in their pixels (frame/samples.h); empty: all go through the centers
   int count = 0;
 
   void resize(int n, bool with_ray) {
@@ -69,7 +70,7 @@ struct HitBatch {
     pixel.resize(n), primitive.resize(n);
     if (with_ray) ray.resize(n);
   }
-  size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes() + instance.bytes(); }
+  size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes() + instance.bytes() + place.bytes(); }
 };
 
 }  // namespace spanray

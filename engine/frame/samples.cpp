@@ -1,6 +1,7 @@
 #include "frame/samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace spanray {
 namespace {
@@ -19,6 +20,7 @@ SamplePlaces make_sample_places(int count) {
   if (count == 1) return places;
   const Offset* const offset = count == 4 ? kFour : count == 8 ? kEight : kSixteen;
   places.count = count;
+  places.spacing = std::sqrt(1.0 / count);
   for (int s = 0; s < count; ++s) {
     const int place = places.first() + s;
     places.offset_x_24_8[place] = 16 * offset[s].x, places.offset_y_24_8[place] = 16 * offset[s].y;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/number_text.h"
+#include "frame/samples.h"
 #include "simd/isa.h"
 
 namespace spanray {
@@ -41,6 +42,7 @@ Result<void> check_request(const Scene& scene, const Camera& camera, const Setti
     return out_of_range("number of threads", std::to_string(s.threads), "0 (one per processor) to " + std::to_string(kMaxThreads));
   if (s.max_bounces < 0 || s.max_bounces > kMaxBounces)
     return out_of_range("number of bounces", std::to_string(s.max_bounces), "0 to " + std::to_string(kMaxBounces));
+  if (!sample_count_ok(s.samples)) return out_of_range("number of samples a pixel", std::to_string(s.samples), "1, 4, 8 or 16");
   if (!isa_supported(resolve_isa(s.isa))) return Error{"this processor does not have the instruction set " + std::string(isa_name(s.isa))};
   return check_camera(camera);
 }

@@ -22,6 +22,7 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
   for (const auto& w : workers) {
     for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->seconds[i] * 1e3 / threads;
     counts.pixels_covered += w->counts.pixels_covered;
+    counts.surfaces_shaded += w->counts.surfaces_shaded;
     counts.fragments_translucent += w->counts.fragments_translucent;
     counts.rays_primary += w->counts.rays_primary;
     counts.rays_shadow += w->counts.rays_shadow;
@@ -37,6 +38,7 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"triangles_culled", c.triangles_culled},
                   {"triangles_drawn", c.triangles_drawn},
                   {"pixels_covered", c.pixels_covered},
+                  {"surfaces_shaded", c.surfaces_shaded},
                   {"fragments_translucent", c.fragments_translucent},
                   {"rays_primary", c.rays_primary},
                   {"rays_shadow", c.rays_shadow},

@@ -13,6 +13,10 @@ Frame make_frame(const SceneData& scene, const Camera& camera, const Settings& s
   frame.plan = plan.flags;
   frame.primary = make_primary_rays(camera, settings.width, settings.height);
   frame.grid = TileGrid(settings.width, settings.height);
+  if (plan.flags.samples) {
+    frame.places = make_sample_places(settings.samples);
+    if (settings.antialiasing == Antialiasing::kSupersample) frame.footprint = frame.places.spacing;
+  }
   frame.isa = resolve_isa(settings.isa);
   frame.parallel = &parallel;
   frame.material_flags = plan.material_flags.data();

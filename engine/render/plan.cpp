@@ -77,6 +77,9 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                        "visibility is by rasterization", "the scene has no triangle");
   f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_triangle, "visibility is by rays",
                              "the scene has no triangle");
+  const std::string shaded_once = s.antialiasing == Antialiasing::kSupersample ? ", each shaded" : ", shaded once a surface";
+  f.samples = lines.add("anti-aliasing", s.samples > 1, "one sample a pixel", use.any_triangle,
+                        std::to_string(s.samples) + " samples a pixel" + shaded_once, "the scene has no triangle");
   f.masks = lines.add("accept masks", true, "", w.masked, materials_text(w.masked, "masked: alpha mask or screen-door"),
                       "no material is masked");
   f.lit_vertices = lines.add("lit vertices", s.shading == Shading::kGouraud, "shading is not Gouraud", lit,

@@ -16,30 +16,12 @@ namespace {
 // Rows of slots shaded at once: their surfaces fit the second-level cache.
 constexpr int kChunkRows = 16;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-// The part of a tile that is shaded at once.
-struct Chunk {
-  int tile, x0, columns, y0, y1;
-};
-
-// Primary rays of the engine that traces, rounded to float. Shading does not use them: it takes the exact ones.
-void make_primary_batch(const Frame& frame, Level& level) {
-  const PrimaryRays& p = frame.primary;
-  level.rays.resize(level.slots, false);
-  level.rays.primary = true;  // accept(hit) then asks the exact rays, as the rasterizer does
-  for (int i = 0; i < level.slots; ++i) {
-    const double x = (level.pixel[i] & 0xffff) + 0.5, y = (level.pixel[i] >> 16) + 0.5;
-    const glm::dvec3 d = p.corner + p.step_x * x + p.step_y * y;
-    const glm::dvec3 o = p.eye + d * p.near_plane;  // t counts view depth: rays start at the near plane
-    for (int k = 0; k < 3; ++k) {
-      level.rays.origin[k][i] = static_cast<float>(o[k]);
-      level.rays.direction[k][i] = static_cast<float>(d[k]);
-    }
-    level.rays.t_max[i] = kInfinity;
-    level.rays.pixel[i] = level.pixel[i];
-  }
+int chunk_rows(const Frame& frame) {
+  const bool every_sample = frame.places.count > 1 && frame.settings.antialiasing == Antialiasing::kSupersample;
+  return every_sample ? kChunkRows / frame.places.count : kChunkRows;
 }
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
   const StageTimer timer(w, TileStage::kRaster);
@@ -48,7 +30,7 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
     for (int row = 0; row < chunk.y1 - chunk.y0; ++row)
       std::copy_n(w.visible.primitive + (row0 + row) * kTileSize, chunk.columns, level.primitive.data() + row * chunk.columns);
   } else if (job.frame.plan.primary_rays) {
-    make_primary_batch(job.frame, level);
+    make_primary_batch(job.frame, level.pixel.data(), level.slots, 0, level.rays);
     trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
     w.counts.rays_primary += static_cast<uint64_t>(level.slots);
   } else {
@@ -68,6 +50,8 @@ void compact_hits(TileWorker& w, Level& level, bool primary) {
   };
   pick(level.pixel, level.hits.pixel);
   pick(level.primitive, level.hits.primitive);
+  level.hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
+  if (!level.place.empty()) pick(level.place, level.hits.place);
   level.hits.rays = primary ? nullptr : &level.rays;
 }
 
@@ -117,12 +101,14 @@ void trace_fragments(const FrameJob& job, TileWorker& w, Level& level, bool prim
 
 void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bool primary, const Chunk& chunk) {
   std::fill_n(level.transmittance.data(), level.slots, 1.0f);
-  w.chunk_fragments.clear();
-  w.fragment_slot.clear();
-  if (primary && job.bins != nullptr)
-    pick_fragments(chunk, w);
-  else
-    trace_fragments(job, w, level, primary);
+  if (!primary || level.place.empty()) {  // else find_sample_slots has found them
+    w.chunk_fragments.clear();
+    w.fragment_slot.clear();
+    if (primary && job.bins != nullptr)
+      pick_fragments(chunk, w);
+    else
+      trace_fragments(job, w, level, primary);
+  }
   const FragmentList& list = w.chunk_fragments;
   const int n = static_cast<int>(list.primitive.size());
   if (n == 0) return;
@@ -134,6 +120,8 @@ void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bo
     std::copy_n(list.pixel.data(), n, hits.pixel.data());
     std::copy_n(list.ray.data(), n, hits.ray.data());
     std::copy_n(list.primitive.data(), n, hits.primitive.data());
+    hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
+    for (size_t i = 0; i < hits.place.size(); ++i) hits.place[i] = level.place[static_cast<size_t>(w.fragment_slot[i])];
     hits.rays = primary ? nullptr : &level.rays;
     resolve_surfaces(job.frame, hits, w.fragment_surfaces);
   }
@@ -173,7 +161,7 @@ void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
     const bool primary = k == 0;
     Level& level = *w.levels[k];
     shade_opaque(job, w, level, primary);
-    if (job.request.ladder != nullptr) mix_surfaces(*job.request.ladder, level.surfaces);
+    if (job.request.ladder != nullptr) mix_surfaces(job, level.surfaces, level.hits);
     if (job.frame.plan.translucents) composite_translucents(job, w, level, primary, chunk);
     if (!job.frame.plan.bounces || k == static_cast<size_t>(job.frame.settings.max_bounces)) break;
     if (w.levels.size() == k + 1) w.levels.push_back(std::make_unique<Level>());
@@ -198,6 +186,7 @@ void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk)
   const SurfaceBatch& s = level.surfaces;
   const SceneData& scene = *job.frame.scene;
   for (int i = 0; i < s.count; ++i) {
+    if (!is_front_slot(level, level.slot_of_hit[i])) continue;
     const size_t pixel = static_cast<size_t>(s.pixel[i] >> 16) * width + (s.pixel[i] & 0xffff);
     const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
     if (job.request.normal)
@@ -209,32 +198,45 @@ void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk)
   }
 }
 
+ChunkPixels pixels_of(const Level& level) {
+  return {{level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()}, level.opaque_t.data(), level.primitive.data()};
+}
+ChunkPixels pixels_of(const SampleHits& s) {
+  return {{s.radiance[0].data(), s.radiance[1].data(), s.radiance[2].data()}, s.front_t.data(), s.front.data()};
+}
+
 // Radiance of a chunk -> bytes, and the arrays that the caller asked for.
 void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
   const StageTimer timer(w, TileStage::kEncode);
+  const bool samples = !level.place.empty();
+  if (samples) resolve_samples(chunk, level, w);
+  const ChunkPixels pixels = samples ? pixels_of(*w.samples) : pixels_of(level);
   for (int y = chunk.y0; y < chunk.y1; ++y) {
     const size_t slot = static_cast<size_t>((y - chunk.y0) * chunk.columns);
     const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.frame.grid.width) + static_cast<size_t>(chunk.x0);
-    const float* radiance[3] = {level.radiance[0].data() + slot, level.radiance[1].data() + slot, level.radiance[2].data() + slot};
+    const float* radiance[3] = {pixels.radiance[0] + slot, pixels.radiance[1] + slot, pixels.radiance[2] + slot};
     encode_row(job.frame.isa, radiance, chunk.columns, job.out.color.rgba.data() + 4 * pixel);
     if (!job.request.radiance && !job.request.depth && !job.request.primitive) continue;
     for (size_t i = 0; i < static_cast<size_t>(chunk.columns); ++i) {
       if (job.request.radiance)
         for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = radiance[c][i];
       // t of a miss is infinite: its depth is 0, the background's.
-      if (job.request.depth) job.out.depth[pixel + i] = static_cast<float>(job.frame.primary.near_plane) / level.opaque_t[slot + i];
-      if (job.request.primitive) job.out.primitive[pixel + i] = level.primitive[slot + i];
+      if (job.request.depth) job.out.depth[pixel + i] = static_cast<float>(job.frame.primary.near_plane) / pixels.opaque_t[slot + i];
+      if (job.request.primitive) job.out.primitive[pixel + i] = pixels.primitive[slot + i];
     }
   }
   if (job.request.normal || job.request.uv) write_surfaces(job, level, chunk);
-  if (job.request.ladder != nullptr) mix_chunk(*job.request.ladder, job, level);
+  if (job.request.ladder != nullptr) mix_chunk(job, w, chunk, pixels);
 }
 
 }  // namespace
 
 void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   const TileGrid& grid = job.frame.grid;
-  if (job.bins != nullptr) {
+  const bool samples = job.frame.places.count > 1;
+  if (samples) {
+    rasterize_samples(job, tile, w);
+  } else if (job.bins != nullptr) {
     const StageTimer timer(w, TileStage::kRaster);
     rasterize_tile(job.frame, *job.bins, tile, w.visible);
     w.fragments.clear();
@@ -242,15 +244,19 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   }
   if (w.levels.empty()) w.levels.push_back(std::make_unique<Level>());
   Level& level = *w.levels[0];
-  for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += kChunkRows) {
-    const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + kChunkRows, grid.y1(tile))};
-    level.resize(chunk.columns * (chunk.y1 - y0), job.frame.plan.translucents);
+  level.place.clear();
+  const int rows = chunk_rows(job.frame);
+  for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
+    const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
+    level.resize(chunk.pixels(), job.frame.plan.translucents);
     for (int y = y0, i = 0; y < chunk.y1; ++y)
       for (int x = chunk.x0; x < chunk.x0 + chunk.columns; ++x, ++i)
         level.pixel[i] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
-    find_primary_hits(job, chunk, w, level);
+    if (samples) find_sample_slots(job, chunk, w, level);
+    else find_primary_hits(job, chunk, w, level);
     shade_levels(job, w, chunk);
-    w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
+    w.counts.surfaces_shaded += static_cast<uint64_t>(level.hits.count);
+    if (!samples) w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
     write_chunk(job, w, level, chunk);
   }
 }
@@ -264,7 +270,7 @@ void Level::resize(int n, bool translucents) {
 }
 
 size_t Level::memory_bytes() const {
-  size_t bytes = rays.memory_bytes() + pixel.bytes() + primitive.bytes() + opaque_t.bytes() + transmittance.bytes() + parent.bytes() +
+  size_t bytes = rays.memory_bytes() + pixel.bytes() + place.bytes() + primitive.bytes() + opaque_t.bytes() + transmittance.bytes() + parent.bytes() +
                  slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + weight[c].bytes();
   return bytes;
@@ -275,6 +281,7 @@ size_t TileWorker::memory_bytes() const {
                  surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
                  fragment_surfaces.memory_bytes() + order.memory_bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes();
+  if (samples) bytes += samples->memory_bytes();
   for (const auto& level : levels) bytes += level->memory_bytes();
   return bytes;
 }

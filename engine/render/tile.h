@@ -7,6 +7,7 @@
 #include "frame/frame.h"
 #include "ray/bvh.h"
 #include "render/hit_order.h"
+#include "render/tile_samples.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 #include "spanray/render.h"
@@ -17,16 +18,24 @@ namespace spanray {
 enum class TileStage { kRaster, kShade, kShadowRays, kBounceRays, kComposite, kEncode };
 inline constexpr int kTileStageCount = 6;
 
+// The part of a tile that is shaded at once.
+struct Chunk {
+  int tile, x0, columns, y0, y1;
+  int pixels() const { return columns * (y1 - y0); }
+};
+
 // What a set of rays of one kind sees and sends back: level 0 are primary rays, level k the rays of the k-th bounce.
-// A *slot* is one ray of the level: a pixel of the chunk at level 0.
+// A *slot* is one ray of the level: a pixel of the chunk at level 0, or with several samples a pixel what
+// find_sample_slots (render/tile_samples.h) makes of them.
 struct Level {
   RayBatch rays;                       // levels above 0, and level 0 when visibility is by rays
   AlignedBuffer<uint32_t> pixel;       // by slot
+  AlignedBuffer<uint32_t> place;       // by slot of level 0, with several samples a pixel; else empty
   AlignedBuffer<uint32_t> primitive;   // by slot: opaque hit
   AlignedBuffer<float> radiance[3];    // by slot
   AlignedBuffer<float> opaque_t;       // by slot: infinity for misses
   AlignedBuffer<float> transmittance;  // by slot, of the translucent layers; only if the frame has some
-  AlignedBuffer<uint32_t> parent;      // by slot: slot of the level before
+  AlignedBuffer<uint32_t> parent;      // by slot: slot of the level before, or with several samples pixel of the chunk
   AlignedBuffer<float> weight[3];      // by slot: what its radiance is multiplied by there
   HitBatch hits;                       // the slots that hit, compacted
   AlignedBuffer<uint32_t> slot_of_hit;
@@ -39,6 +48,7 @@ struct Level {
 
 struct TileWorker {
   TileHits visible;
+  std::unique_ptr<SampleHits> samples;  // only with several a pixel
   FragmentList fragments, chunk_fragments;
   std::vector<std::unique_ptr<Level>> levels;
   // Scratch of one batch being lit.
@@ -63,6 +73,13 @@ struct FrameJob {
   LitVertexCache* lit_vertices = nullptr;
   Framebuffer& out;
   const FrameRequest& request;
+};
+
+// Finished pixels of a chunk, row by row: level 0 itself, or what resolve_samples made of it.
+struct ChunkPixels {
+  const float* radiance[3];
+  const float* opaque_t;
+  const uint32_t* primitive;
 };
 
 void render_tile(const FrameJob& job, int tile, TileWorker& worker);

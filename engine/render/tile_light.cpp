@@ -38,7 +38,7 @@ void light_surfaces(const FrameJob& job, TileWorker& w, const SurfaceBatch& surf
   if (surfaces.count == 0) return;
   for (int light = 0; light < static_cast<int>(job.frame.scene->lights.size()); ++light) {
     const uint32_t* lit = job.frame.plan.shadow_rays ? find_lit(job, w, surfaces, light) : nullptr;
-    if (job.request.ladder != nullptr && lit != nullptr) mix_shadow_bits(*job.request.ladder, surfaces, lit, light);
+    if (job.request.ladder != nullptr && lit != nullptr) mix_shadow_bits(job, surfaces, hits, lit, light);
     const StageTimer timer(w, TileStage::kShade);
     shade_light(job.frame, surfaces, hits, light, lit, primary ? job.lit_vertices : nullptr, radiance);
   }

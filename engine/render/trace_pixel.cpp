@@ -292,6 +292,8 @@ PixelTrace Tracer::run() {
 
 Result<PixelTrace> trace_pixel(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y) {
   if (Result<void> checked = check_request(scene, camera, settings); !checked) return checked.error();
+  if (settings.samples > 1)
+    return Error{"the derivation of a pixel follows one ray; give --samples 1 (this asks for " + std::to_string(settings.samples) + ")"};
   if (x < 0 || y < 0 || x >= settings.width || y >= settings.height)
     return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the picture of " +
                  std::to_string(settings.width) + "x" + std::to_string(settings.height)};

@@ -108,7 +108,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
   TomlTable t(*node->as_table(), "[technique]",
               {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling", "max_bounces",
-               "textures", "bump", "width", "height"},
+               "samples", "antialiasing", "textures", "bump", "width", "height"},
               errors);
   t.word("shading", &s.shading);
   t.word("shadows", &s.shadows);
@@ -118,6 +118,11 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.word("transparency", &s.transparency);
   t.word("culling", &s.culling);
   t.integer("max_bounces", 0, 64, &s.max_bounces);
+  if (int samples = 0; t.integer("samples", 1, 16, &samples)) {
+    if (samples == 1 || samples == 4 || samples == 8 || samples == 16) s.samples = samples;
+    else t.fail("samples", "must be 1, 4, 8 or 16");
+  }
+  t.word("antialiasing", &s.antialiasing);
   t.boolean("textures", &s.textures);
   t.boolean("bump", &s.bump);
   t.integer("width", 1, 16384, &s.width);

@@ -19,6 +19,8 @@ constexpr EnumName<Transparency> kTransparencyNames[] = {{Transparency::kScene, 
                                                          {Transparency::kAlpha, "alpha"},
                                                          {Transparency::kScreenDoor, "screen-door"}};
 constexpr EnumName<Culling> kCullingNames[] = {{Culling::kNone, "none"}, {Culling::kBack, "back"}};
+constexpr EnumName<Antialiasing> kAntialiasingNames[] = {{Antialiasing::kMultisample, "multisample"},
+                                                         {Antialiasing::kSupersample, "supersample"}};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -70,6 +72,10 @@ std::span<const EnumName<Transparency>> enum_names<Transparency>() {
 template <>
 std::span<const EnumName<Culling>> enum_names<Culling>() {
   return kCullingNames;
+}
+template <>
+std::span<const EnumName<Antialiasing>> enum_names<Antialiasing>() {
+  return kAntialiasingNames;
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {

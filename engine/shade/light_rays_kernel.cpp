@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "shade/light_rays_kernel.cpp"
 #include "hwy/foreach_target.h"
 #include "shade/light_lanes-inl.h"
+#include "shade/place-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -84,14 +85,15 @@ HWY_INLINE RayDirection ray_direction(const Frame& frame, const SurfaceBatch& s,
   const V3 d = -load3(s.view, i);
   if (hits.rays == nullptr) {
     const PrimaryRays& p = frame.primary;
-    const I32 pixel = I32::load(s.pixel + i);
-    const F64 x = to_f64(pixel & i32(0xffff)) + f64(0.5), y = to_f64(shift_right_logical<16>(pixel)) + f64(0.5);
+    const auto [x, y] = places_of(frame, hits, I32::load(s.pixel + i), i);
     const V3 whole = {to_f32(f64(p.corner.x) + x * f64(p.step_x.x) + y * f64(p.step_y.x)),
                       to_f32(f64(p.corner.y) + x * f64(p.step_x.y) + y * f64(p.step_y.y)),
                       to_f32(f64(p.corner.z) + x * f64(p.step_x.z) + y * f64(p.step_y.z))};
     const F32 length = formula::length(whole);
-    const V3 step_x = {to_f32(f64(p.step_x.x)), to_f32(f64(p.step_x.y)), to_f32(f64(p.step_x.z))};
-    const V3 step_y = {to_f32(f64(p.step_y.x)), to_f32(f64(p.step_y.y)), to_f32(f64(p.step_y.z))};
+    const auto step = [&](const glm::dvec3& one) HWY_ATTR -> V3 {
+      return {to_f32(f64(one.x * frame.footprint)), to_f32(f64(one.y * frame.footprint)), to_f32(f64(one.z * frame.footprint))};
+    };
+    const V3 step_x = step(p.step_x), step_y = step(p.step_y);
     return {d, unit_derivative(d, length, step_x), unit_derivative(d, length, step_y)};
   }
   const RayBatch& rays = *hits.rays;

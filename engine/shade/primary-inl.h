@@ -7,6 +7,7 @@
 #define SPANRAY_PRIMARY_INL_H_
 #endif
 
+#include "shade/place-inl.h"
 #include "shade/point-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -167,15 +168,15 @@ struct PixelStep {
   HWY_INLINE F64 of(F64 d1, F64 d2, F64 moved) const { return (edge1 * d1 + edge2 * d2 - moved * sum) * inverse_sum; }
 };
 
-// axis: 1 for x, 2 for y.
-HWY_INLINE PixelStep pixel_step(const SetupLanes& s, const WeightLanes& w, int axis) {
-  return {s.d(kSetupEdge1 + axis), s.d(kSetupEdge2 + axis), s.d(kSetupSum + axis), w.inverse_sum};
+// axis: 1 for x, 2 for y. The step is as long as what is shaded at once.
+HWY_INLINE PixelStep pixel_step(const Frame& frame, const SetupLanes& s, const WeightLanes& w, int axis) {
+  return {s.d(kSetupEdge1 + axis), s.d(kSetupEdge2 + axis), s.d(kSetupSum + axis), w.inverse_sum * f64(frame.footprint)};
 }
 
 HWY_INLINE UvLanes primary_uv(const Frame& frame, const SetupLanes& s, const WeightLanes& w) {
   const F64 du1 = s.d(kSetupU + 1), du2 = s.d(kSetupU + 2), dv1 = s.d(kSetupV + 1), dv2 = s.d(kSetupV + 2);
   const F64 u = w.b1 * du1 + w.b2 * du2, v = w.b1 * dv1 + w.b2 * dv2;
-  const PixelStep x = pixel_step(s, w, 1), y = pixel_step(s, w, 2);
+  const PixelStep x = pixel_step(frame, s, w, 1), y = pixel_step(frame, s, w, 2);
   UvLanes uv;
   uv.u = s.d(kSetupU) + u, uv.v = s.d(kSetupV) + v;
   uv.du_dx = to_f32(x.of(du1, du2, u)), uv.dv_dx = to_f32(x.of(dv1, dv2, v));
@@ -185,9 +186,9 @@ HWY_INLINE UvLanes primary_uv(const Frame& frame, const SetupLanes& s, const Wei
 }
 
 // The surfaces of kLanes hits of primary rays, up to their materials.
-HWY_INLINE PointLanes primary_point(const Frame& frame, const SetupLanes& s, I32 pixel) {
+HWY_INLINE PointLanes primary_point(const Frame& frame, const SetupLanes& s, const PlaceLanes& place) {
   const PrimaryRays& p = frame.primary;
-  const F64 x = to_f64(pixel & i32(0xffff)) + f64(0.5), y = to_f64(shift_right_logical<16>(pixel)) + f64(0.5);
+  const F64 x = place.x, y = place.y;
   const WeightLanes w = primary_weights(s, x, y);
   const V3d side1 = s.d3(kSetupSide1), side2 = s.d3(kSetupSide2);
   const V3d moved = side1 * w.b1 + side2 * w.b2, position = s.d3(kSetupV0) + moved;
@@ -209,7 +210,7 @@ HWY_INLINE PointLanes primary_point(const Frame& frame, const SetupLanes& s, I32
     point.normal = interpolated_normal({s.f3(kSetupNormal), s.f3(kSetupNormal + 3), s.f3(kSetupNormal + 6)}, w.b.y, w.b.z,
                                        point.geometric);
   if (frame.plan.bounces) {
-    const PixelStep dx = pixel_step(s, w, 1), dy = pixel_step(s, w, 2);
+    const PixelStep dx = pixel_step(frame, s, w, 1), dy = pixel_step(frame, s, w, 2);
     point.dpdx = {dx.of(side1.x, side2.x, moved.x), dx.of(side1.y, side2.y, moved.y), dx.of(side1.z, side2.z, moved.z)};
     point.dpdy = {dy.of(side1.x, side2.x, moved.x), dy.of(side1.y, side2.y, moved.y), dy.of(side1.z, side2.z, moved.z)};
   }

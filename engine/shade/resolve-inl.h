@@ -78,7 +78,10 @@ HWY_INLINE RayLanes load_rays(const Frame& frame, const HitLanes& hits) {
 HWY_INLINE DifferentialLanes load_differentials(const Frame& frame, const HitLanes& hits) {
   const V3d zero{f64(0.0), f64(0.0), f64(0.0)};
   const RayBatch* rays = secondary(hits.rays);
-  if (rays == nullptr) return {zero, zero, broadcast(frame.primary.step_x), broadcast(frame.primary.step_y)};
+  if (rays == nullptr) {  // accept(hit) is asked at every sample
+    const F64 spacing = f64(frame.places.spacing);
+    return {zero, zero, broadcast(frame.primary.step_x) * spacing, broadcast(frame.primary.step_y) * spacing};
+  }
   if (rays->direction_dx[0].empty()) return {zero, zero, zero, zero};
   return {gather3(rays->origin_dx, hits.ray), gather3(rays->origin_dy, hits.ray), gather3(rays->direction_dx, hits.ray),
           gather3(rays->direction_dy, hits.ray)};

@@ -121,7 +121,8 @@ void resolve_primary(const Frame& frame, const HitBatch& hits, SurfaceBatch& out
         store_zeros(Group{frame, valid, {}, nullptr, at}, out);
         continue;
       }
-      store_surface(frame, hits, at, valid, primary_point(frame, load_setup(block, i), I32::load(hits.pixel.data() + at)), out);
+      const PlaceLanes place = places_of(frame, hits, I32::load(hits.pixel.data() + at), at);
+      store_surface(frame, hits, at, valid, primary_point(frame, load_setup(block, i), place), out);
     }
   }
 }

@@ -18,8 +18,9 @@ struct Image {
 struct Framebuffer {
   Image color;
   std::vector<float> radiance;      // linear RGB, 3 * width * height
+  // Of the nearest opaque surface, translucent layers left out; with several samples a pixel of that which the sample nearest
+  // the center sees, where it was shaded.
   std::vector<float> depth;         // reversed z: near / view depth, 0 = background
-  // Of the nearest opaque surface, translucent layers left out:
   std::vector<uint32_t> primitive;  // triangle index, 0xffffffff = background
   std::vector<float> normal;        // shading normal in world space, bump maps included, unit; 3 * width * height, 0 = background
   std::vector<float> uv;            // texture coordinates of the vertices, interpolated; 2 * width * height, 0 = background

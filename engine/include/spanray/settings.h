@@ -14,6 +14,8 @@ enum class Filter { kNearest, kBilinear, kTrilinear };
 // material says (alpha unless the scene file asks for screen-door).
 enum class Transparency { kScene, kNone, kAlpha, kScreenDoor };
 enum class Culling { kNone, kBack };
+// What is shaded where a pixel has several samples: each distinct surface that they see, once, or every sample on its own.
+enum class Antialiasing { kMultisample, kSupersample };
 
 struct Settings {
   int width = 1280, height = 720;  // pixels, 1 to 16384
@@ -25,6 +27,8 @@ struct Settings {
   Filter filter = Filter::kTrilinear;
   Transparency transparency = Transparency::kScene;
   Culling culling = Culling::kNone;
+  int samples = 1;  // a pixel: 1, 4, 8 or 16, in the standard patterns of Direct3D 11 (docs/decisions/0007-samples.md)
+  Antialiasing antialiasing = Antialiasing::kMultisample;  // only with more than one sample
   bool textures = true;
   bool bump = true;
   int threads = 0;  // 0: one per processor

@@ -25,6 +25,7 @@ template <> std::span<const EnumName<Visibility>> enum_names<Visibility>();
 template <> std::span<const EnumName<Filter>> enum_names<Filter>();
 template <> std::span<const EnumName<Transparency>> enum_names<Transparency>();
 template <> std::span<const EnumName<Culling>> enum_names<Culling>();
+template <> std::span<const EnumName<Antialiasing>> enum_names<Antialiasing>();
 
 // The value named by text, exactly as written in the table.
 template <class E> std::optional<E> enum_from_text(std::string_view text) {

@@ -1,0 +1,237 @@
+#include "render/tile_samples.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "raster/depth_plane.h"
+#include "raster/raster.h"
+#include "render/tile.h"
+#include "render/tile_light.h"
+
+namespace spanray {
+namespace {
+
+size_t tile_row(const TileGrid& grid, const Chunk& chunk, int y) { return static_cast<size_t>((y - grid.y0(chunk.tile)) * kTileSize); }
+
+// The rasterizer's depth (raster/depth_plane.h) of a primitive at a picture position.
+float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
+  if (primitive == kNoPrimitive) return 0;
+  const Triangle& t = frame.scene->triangles[primitive];
+  double view_depth[3];
+  for (int i = 0; i < 3; ++i) {
+    const float* p = frame.scene->vertices[t.vertex[i]].position;
+    view_depth[i] = dot3(glm::dvec3(p[0], p[1], p[2]) - frame.primary.eye, frame.primary.forward);
+  }
+  const DepthPlane plane = make_depth_plane(frame, t, view_depth);
+  return std::clamp(static_cast<float>(plane.depth0 + y * plane.dy + x * plane.dx), plane.min, plane.max);
+}
+
+// Translucent layers of the rays, those left out that lie behind what `opaque` names: visibility must be decided before samples are
+// grouped, as the rasterizer does.
+void trace_layers(const FrameJob& job, const SampleHits& seen, FragmentList& out) {
+  FragmentList all;
+  trace_all(job.frame, *job.translucent, seen.rays, all);
+  out.clear();
+  const SamplePlaces& places = job.frame.places;
+  for (size_t i = 0; i < all.primitive.size(); ++i) {
+    const double x = (all.pixel[i] & 0xffff) + places.x[seen.rays.place], y = (all.pixel[i] >> 16) + places.y[seen.rays.place];
+    if (depth_at(job.frame, all.primitive[i], x, y) < depth_at(job.frame, seen.traced[all.ray[i]], x, y)) continue;
+    out.pixel.push_back(all.pixel[i]), out.ray.push_back(0), out.primitive.push_back(all.primitive[i]);
+  }
+}
+
+// The other engine: traces a chunk once a sample.
+void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, const Level& level) {
+  const StageTimer timer(w, TileStage::kRaster);
+  SampleHits& seen = *w.samples;
+  const SamplePlaces& places = job.frame.places;
+  for (int s = 0; s < places.count; ++s) {
+    make_primary_batch(job.frame, level.pixel.data(), chunk.pixels(), places.first() + s, seen.rays);
+    seen.traced.resize(static_cast<size_t>(chunk.pixels()));
+    trace_closest(job.frame, *job.opaque, seen.rays, seen.traced.data());
+    w.counts.rays_primary += static_cast<uint64_t>(chunk.pixels());
+    for (int y = chunk.y0; y < chunk.y1; ++y)
+      std::copy_n(seen.traced.data() + (y - chunk.y0) * chunk.columns, chunk.columns,
+                  seen.primitive.data() + s * kTilePixels + tile_row(job.frame.grid, chunk, y));
+    if (!job.frame.plan.translucents) continue;
+    trace_layers(job, seen, seen.fragments[s]);
+    w.counts.rays_translucent += static_cast<uint64_t>(chunk.pixels());
+  }
+}
+
+// Counting sort of the chunk's fragments by pixel and sample.
+void index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
+  seen.start.assign(static_cast<size_t>(chunk.pixels() * samples) + 2, 0);
+  const auto for_each = [&](const auto& visit) {
+    for (int s = 0; s < samples; ++s) {
+      const FragmentList& list = seen.fragments[s];
+      for (size_t i = 0; i < list.pixel.size(); ++i) {
+        const int x = static_cast<int>(list.pixel[i] & 0xffff), y = static_cast<int>(list.pixel[i] >> 16);
+        if (y >= chunk.y0 && y < chunk.y1) visit(static_cast<size_t>(((y - chunk.y0) * chunk.columns + x - chunk.x0) * samples + s), list.primitive[i]);
+      }
+    }
+  };
+  for_each([&](size_t i, uint32_t) { ++seen.start[i + 2]; });
+  for (size_t i = 2; i < seen.start.size(); ++i) seen.start[i] += seen.start[i - 1];
+  seen.fragment.resize(seen.start.back());
+  for_each([&](size_t i, uint32_t primitive) { seen.fragment[seen.start[i + 1]++] = primitive; });
+  seen.start.pop_back();
+  // Rays find them in no order.
+  for (size_t i = 0; i + 1 < seen.start.size(); ++i) std::sort(seen.fragment.begin() + seen.start[i], seen.fragment.begin() + seen.start[i + 1]);
+}
+
+// Fills level 0 and the list of fragments, slot by slot.
+class SlotMaker {
+ public:
+  SlotMaker(const FrameJob& job, TileWorker& worker, Level& level)
+      : places_(job.frame.places), one_each_(job.frame.settings.antialiasing == Antialiasing::kSupersample), worker_(worker),
+        level_(level) {}
+  int slots() const { return slots_; }
+
+  // All samples see the same, and no layers.
+  void add_whole(uint32_t parent, uint32_t pixel, uint32_t primitive) { add(parent, pixel, primitive, 0, 1.0f); }
+
+  // id[s]: what sample s sees. layers: whether it may see translucent ones.
+  void add_groups(uint32_t parent, uint32_t pixel, const uint32_t* const* id, int column, bool layers) {
+    int first[kMaxSamples], nearest[kMaxSamples], count[kMaxSamples], groups = 0;
+    for (int s = 0; s < places_.count; ++s) {
+      const auto same = [&](int other) {
+        return id[s][column] == id[other][column] && (!layers || std::ranges::equal(fragments(parent, s), fragments(parent, other)));
+      };
+      int g = one_each_ ? groups : 0;
+      while (g < groups && !same(first[g])) ++g;
+      if (g == groups) first[g] = nearest[g] = s, count[g] = 0, ++groups;
+      ++count[g];
+      if (distance(s) < distance(nearest[g])) nearest[g] = s;
+    }
+    for (int g = 0; g < groups; ++g) {
+      const int place = count[g] == places_.count ? 0 : places_.first() + nearest[g];
+      if (layers) add_fragments(pixel, fragments(parent, first[g]));
+      add(parent, pixel, id[first[g]][column], place, static_cast<float>(count[g]) / static_cast<float>(places_.count));
+    }
+  }
+
+ private:
+  std::span<const uint32_t> fragments(uint32_t parent, int sample) const {
+    const SampleHits& seen = *worker_.samples;
+    const size_t i = parent * static_cast<size_t>(places_.count) + static_cast<size_t>(sample);
+    return {seen.fragment.data() + seen.start[i], seen.start[i + 1] - seen.start[i]};
+  }
+  int distance(int sample) const {
+    const int x = places_.offset_x_24_8[places_.first() + sample], y = places_.offset_y_24_8[places_.first() + sample];
+    return x * x + y * y;
+  }
+  void add_fragments(uint32_t pixel, std::span<const uint32_t> primitives) {
+    FragmentList& list = worker_.chunk_fragments;
+    for (const uint32_t primitive : primitives) {
+      list.pixel.push_back(pixel), list.ray.push_back(0), list.primitive.push_back(primitive);
+      worker_.fragment_slot.push_back(slots_);
+    }
+  }
+  void add(uint32_t parent, uint32_t pixel, uint32_t primitive, int place, float weight) {
+    const size_t i = static_cast<size_t>(slots_++);
+    level_.pixel[i] = pixel, level_.primitive[i] = primitive, level_.place[i] = static_cast<uint32_t>(place);
+    level_.parent[i] = parent;
+    for (int c = 0; c < 3; ++c) level_.weight[c][i] = weight;
+  }
+
+  const SamplePlaces& places_;
+  const bool one_each_;
+  TileWorker& worker_;
+  Level& level_;
+  int slots_ = 0;
+};
+
+}  // namespace
+
+void make_primary_batch(const Frame& frame, const uint32_t* pixel, int count, int place, RayBatch& rays) {
+  const PrimaryRays& p = frame.primary;
+  rays.resize(count, false);
+  rays.primary = true;  // accept(hit) then asks the exact rays, as the rasterizer does
+  rays.place = place;
+  for (int i = 0; i < count; ++i) {
+    const double x = (pixel[i] & 0xffff) + frame.places.x[place], y = (pixel[i] >> 16) + frame.places.y[place];
+    const glm::dvec3 d = p.corner + p.step_x * x + p.step_y * y;
+    const glm::dvec3 o = p.eye + d * p.near_plane;  // t counts view depth: rays start at the near plane
+    for (int k = 0; k < 3; ++k) {
+      rays.origin[k][i] = static_cast<float>(o[k]);
+      rays.direction[k][i] = static_cast<float>(d[k]);
+    }
+    rays.t_max[i] = std::numeric_limits<float>::infinity();
+    rays.pixel[i] = pixel[i];
+  }
+}
+
+void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
+  const SamplePlaces& places = job.frame.places;
+  if (!w.samples) w.samples = std::make_unique<SampleHits>();
+  w.samples->primitive.resize(static_cast<size_t>(places.count) * kTilePixels);
+  if (job.bins == nullptr) return;
+  const StageTimer timer(w, TileStage::kRaster);
+  for (int s = 0; s < places.count; ++s) {
+    rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
+    std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kTilePixels);
+    w.samples->fragments[s].clear();
+    if (job.frame.plan.translucents)
+      rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.samples->fragments[s], places.first() + s);
+  }
+}
+
+void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
+  SampleHits& seen = *w.samples;
+  const int samples = job.frame.places.count;
+  const bool translucents = job.frame.plan.translucents, one_each = job.frame.settings.antialiasing == Antialiasing::kSupersample;
+  if (job.bins == nullptr) trace_samples(job, chunk, w, level);
+  const StageTimer timer(w, TileStage::kRaster);
+  w.chunk_fragments.clear(), w.fragment_slot.clear();
+  if (translucents) index_fragments(chunk, samples, seen);
+  level.resize(chunk.pixels() * samples, translucents);
+  level.place.resize(static_cast<size_t>(level.slots));
+  SlotMaker maker(job, w, level);
+  for (int y = chunk.y0; y < chunk.y1; ++y) {
+    const uint32_t* id[kMaxSamples];
+    uint32_t differ[kTileSize] = {};
+    for (int s = 0; s < samples; ++s) {
+      id[s] = seen.primitive.data() + s * kTilePixels + tile_row(job.frame.grid, chunk, y);
+      for (int x = 0; x < chunk.columns; ++x) differ[x] |= id[s][x] ^ id[0][x];
+    }
+    for (int x = 0; x < chunk.columns; ++x) {
+      const size_t parent = static_cast<size_t>((y - chunk.y0) * chunk.columns + x), at = parent * static_cast<size_t>(samples);
+      const bool layers = translucents && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
+      const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
+      if (one_each || layers || differ[x] != 0) maker.add_groups(static_cast<uint32_t>(parent), pixel, id, x, layers);
+      else maker.add_whole(static_cast<uint32_t>(parent), pixel, id[0][x]);
+    }
+  }
+  level.resize(maker.slots(), translucents);
+  level.place.resize(static_cast<size_t>(level.slots));
+}
+
+bool is_front_slot(const Level& level, uint32_t slot) {
+  return level.place.empty() || slot == 0 || level.parent[slot] != level.parent[slot - 1];
+}
+
+void resolve_samples(const Chunk& chunk, const Level& level, TileWorker& w) {
+  SampleHits& seen = *w.samples;
+  const size_t pixels = static_cast<size_t>(chunk.pixels());
+  for (auto& channel : seen.radiance) channel.assign(pixels, 0.0f);
+  seen.front_t.resize(pixels), seen.front.resize(pixels);
+  uint32_t last_covered = kNoPrimitive;
+  for (int slot = 0; slot < level.slots; ++slot) {
+    const uint32_t parent = level.parent[slot];
+    for (int c = 0; c < 3; ++c) seen.radiance[c][parent] += level.weight[c][slot] * level.radiance[c][slot];
+    if (is_front_slot(level, static_cast<uint32_t>(slot))) seen.front_t[parent] = level.opaque_t[slot], seen.front[parent] = level.primitive[slot];
+    if (level.primitive[slot] != kNoPrimitive && parent != last_covered) ++w.counts.pixels_covered, last_covered = parent;
+  }
+}
+
+size_t SampleHits::memory_bytes() const {
+  size_t bytes = sizeof(SampleHits) + primitive.bytes() + start.capacity() * sizeof(uint32_t) + fragment.bytes() + rays.memory_bytes() +
+                 traced.bytes() + front_t.bytes() + front.bytes();
+  for (const FragmentList& list : fragments) bytes += list.memory_bytes();
+  for (const auto& channel : radiance) bytes += channel.bytes();
+  return bytes;
+}
+
+}  // namespace spanray
