@@ -149,6 +149,27 @@ TEST(Antialiasing, T3_APaneCoversSomeSamples) {
   });
 }
 
+// T4 with several samples: every sample has its exact count a mask tile, and every pixel nearly its share.
+TEST(Antialiasing, T4_AScreenDoorTurnsSmooth) {
+  for_all_ways([&](int samples, Antialiasing mode, Visibility engine) {
+    for (const int rank : {7, 16, 29, 50}) {
+      std::vector<SoupTriangle> soup;
+      add_quad(soup, -30, -30, 30, 30, 0, 0);
+      Material gauze = glowing(1, static_cast<float>(rank) / 64);
+      gauze.transparency = static_cast<int32_t>(MaterialTransparency::kScreenDoor);
+      const Framebuffer out = render(scene_of(soup, {gauze}, 0), unit_pixels(), settings_with(samples, mode, engine));
+      float sum = 0;
+      for (size_t y = 8; y < 16; ++y)
+        for (size_t x = 16; x < 24; ++x) {
+          const float r = out.radiance[3 * (y * 32 + x)];
+          ASSERT_LE(std::fabs(r - gauze.opacity), 1.0f / static_cast<float>(samples));
+          sum += r;
+        }
+      ASSERT_EQ(sum, static_cast<float>(rank)) << samples;
+    }
+  });
+}
+
 // What every sample of a picture sees, by either engine: sample by sample.
 std::vector<std::vector<uint32_t>> ids_of_samples(const Scene& scene, const Camera& camera, const Settings& settings, Visibility engine) {
   const SceneData& data = scene.data();

@@ -62,7 +62,7 @@ void mix_chunk(const FrameJob& job, const TileWorker& w, const Chunk& chunk, con
       const int in_tile = (y - grid.y0(chunk.tile)) * kTileSize + x - chunk.x0;
       ladder.set_primitive(x, y, pixels.primitive[i]);
       for (int s = 0; s < samples; ++s)
-        ladder.mix(Rung::kIds, x, y, samples == 1 ? pixels.primitive[i] : w.samples->primitive[static_cast<size_t>(s * kTilePixels + in_tile)]);
+        ladder.mix(Rung::kIds, x, y, samples == 1 ? pixels.primitive[i] : w.samples->primitive[static_cast<size_t>(s * kSamplePlane + in_tile)]);
       ladder.mix(Rung::kRadiance, x, y, two_floats(pixels.radiance[0][i], pixels.radiance[1][i]));
       ladder.mix(Rung::kRadiance, x, y, two_floats(pixels.radiance[2][i], 0));
       uint32_t bytes;

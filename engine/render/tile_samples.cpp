@@ -53,7 +53,7 @@ void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, const
     w.counts.rays_primary += static_cast<uint64_t>(chunk.pixels());
     for (int y = chunk.y0; y < chunk.y1; ++y)
       std::copy_n(seen.traced.data() + (y - chunk.y0) * chunk.columns, chunk.columns,
-                  seen.primitive.data() + s * kTilePixels + tile_row(job.frame.grid, chunk, y));
+                  seen.primitive.data() + s * kSamplePlane + tile_row(job.frame.grid, chunk, y));
     if (!job.frame.plan.translucents) continue;
     trace_layers(job, seen, seen.fragments[s]);
     w.counts.rays_translucent += static_cast<uint64_t>(chunk.pixels());
@@ -86,42 +86,44 @@ class SlotMaker {
  public:
   SlotMaker(const FrameJob& job, TileWorker& worker, Level& level)
       : places_(job.frame.places), one_each_(job.frame.settings.antialiasing == Antialiasing::kSupersample), worker_(worker),
-        level_(level) {}
+        level_(level) {
+    for (int s = 0; s < places_.count; ++s) {
+      const int x = places_.offset_x_24_8[places_.first() + s], y = places_.offset_y_24_8[places_.first() + s];
+      distance_[s] = x * x + y * y;
+    }
+  }
   int slots() const { return slots_; }
 
   // All samples see the same, and no layers.
   void add_whole(uint32_t parent, uint32_t pixel, uint32_t primitive) { add(parent, pixel, primitive, 0, 1.0f); }
 
-  // id[s]: what sample s sees. layers: whether it may see translucent ones.
-  void add_groups(uint32_t parent, uint32_t pixel, const uint32_t* const* id, int column, bool layers) {
-    int first[kMaxSamples], nearest[kMaxSamples], count[kMaxSamples], groups = 0;
+  // id: what each sample sees. layers: whether some see translucent ones.
+  void add_groups(uint32_t parent, uint32_t pixel, const uint32_t* id, bool layers) {
+    Group group[kMaxSamples];
+    int groups = 0;
     for (int s = 0; s < places_.count; ++s) {
-      const auto same = [&](int other) {
-        return id[s][column] == id[other][column] && (!layers || std::ranges::equal(fragments(parent, s), fragments(parent, other)));
-      };
       int g = one_each_ ? groups : 0;
-      while (g < groups && !same(first[g])) ++g;
-      if (g == groups) first[g] = nearest[g] = s, count[g] = 0, ++groups;
-      ++count[g];
-      if (distance(s) < distance(nearest[g])) nearest[g] = s;
+      while (g < groups && !(id[s] == group[g].primitive && (!layers || same_fragments(parent, s, group[g].first)))) ++g;
+      if (g == groups) group[groups++] = {id[s], s, s, 0};
+      ++group[g].count;
+      if (distance_[s] < distance_[group[g].nearest]) group[g].nearest = s;
     }
     for (int g = 0; g < groups; ++g) {
-      const int place = count[g] == places_.count ? 0 : places_.first() + nearest[g];
-      if (layers) add_fragments(pixel, fragments(parent, first[g]));
-      add(parent, pixel, id[first[g]][column], place, static_cast<float>(count[g]) / static_cast<float>(places_.count));
+      const int place = group[g].count == places_.count ? 0 : places_.first() + group[g].nearest;
+      if (layers) add_fragments(pixel, fragments(parent, group[g].first));
+      add(parent, pixel, group[g].primitive, place, static_cast<float>(group[g].count) / static_cast<float>(places_.count));
     }
   }
 
  private:
+  struct Group { uint32_t primitive; int first, nearest, count; };  // samples that see the same
+
   std::span<const uint32_t> fragments(uint32_t parent, int sample) const {
     const SampleHits& seen = *worker_.samples;
     const size_t i = parent * static_cast<size_t>(places_.count) + static_cast<size_t>(sample);
     return {seen.fragment.data() + seen.start[i], seen.start[i + 1] - seen.start[i]};
   }
-  int distance(int sample) const {
-    const int x = places_.offset_x_24_8[places_.first() + sample], y = places_.offset_y_24_8[places_.first() + sample];
-    return x * x + y * y;
-  }
+  bool same_fragments(uint32_t parent, int a, int b) const { return std::ranges::equal(fragments(parent, a), fragments(parent, b)); }
   void add_fragments(uint32_t pixel, std::span<const uint32_t> primitives) {
     FragmentList& list = worker_.chunk_fragments;
     for (const uint32_t primitive : primitives) {
@@ -140,6 +142,7 @@ class SlotMaker {
   const bool one_each_;
   TileWorker& worker_;
   Level& level_;
+  int distance_[kMaxSamples];  // of each sample from the center, squared
   int slots_ = 0;
 };
 
@@ -166,12 +169,12 @@ void make_primary_batch(const Frame& frame, const uint32_t* pixel, int count, in
 void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
   const SamplePlaces& places = job.frame.places;
   if (!w.samples) w.samples = std::make_unique<SampleHits>();
-  w.samples->primitive.resize(static_cast<size_t>(places.count) * kTilePixels);
+  w.samples->primitive.resize(static_cast<size_t>(places.count) * kSamplePlane);
   if (job.bins == nullptr) return;
   const StageTimer timer(w, TileStage::kRaster);
   for (int s = 0; s < places.count; ++s) {
     rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
-    std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kTilePixels);
+    std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kSamplePlane);
     w.samples->fragments[s].clear();
     if (job.frame.plan.translucents)
       rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.samples->fragments[s], places.first() + s);
@@ -193,15 +196,20 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
     const uint32_t* id[kMaxSamples];
     uint32_t differ[kTileSize] = {};
     for (int s = 0; s < samples; ++s) {
-      id[s] = seen.primitive.data() + s * kTilePixels + tile_row(job.frame.grid, chunk, y);
+      id[s] = seen.primitive.data() + s * kSamplePlane + tile_row(job.frame.grid, chunk, y);
       for (int x = 0; x < chunk.columns; ++x) differ[x] |= id[s][x] ^ id[0][x];
     }
     for (int x = 0; x < chunk.columns; ++x) {
       const size_t parent = static_cast<size_t>((y - chunk.y0) * chunk.columns + x), at = parent * static_cast<size_t>(samples);
       const bool layers = translucents && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
       const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
-      if (one_each || layers || differ[x] != 0) maker.add_groups(static_cast<uint32_t>(parent), pixel, id, x, layers);
-      else maker.add_whole(static_cast<uint32_t>(parent), pixel, id[0][x]);
+      if (!one_each && !layers && differ[x] == 0) {
+        maker.add_whole(static_cast<uint32_t>(parent), pixel, id[0][x]);
+        continue;
+      }
+      uint32_t seen_by[kMaxSamples];
+      for (int s = 0; s < samples; ++s) seen_by[s] = id[s][x];
+      maker.add_groups(static_cast<uint32_t>(parent), pixel, seen_by, layers);
     }
   }
   level.resize(maker.slots(), translucents);

@@ -13,9 +13,12 @@ struct FrameJob;
 struct Level;
 struct TileWorker;
 
+// From one sample of a tile to the next, a cache line beyond its end: the samples of a pixel then lie in different sets of the cache.
+inline constexpr int kSamplePlane = kTilePixels + 16;
+
 // What the samples of a tile see, and the pixels of a chunk that come of it.
 struct SampleHits {
-  AlignedBuffer<uint32_t> primitive;      // sample by sample, each row-major kTileSize x kTileSize
+  AlignedBuffer<uint32_t> primitive;      // sample by sample (kSamplePlane), row-major kTileSize x kTileSize
   FragmentList fragments[kMaxSamples];    // translucent, by sample: of the tile if it was rasterized, else of the chunk
   // Of a chunk, by pixel and sample: entries [start[i], start[i + 1]) of `fragment`, i = pixel * samples + sample, ascending.
   std::vector<uint32_t> start;

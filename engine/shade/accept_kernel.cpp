@@ -26,9 +26,15 @@ HWY_INLINE I32 dither_rank(I32 pixel) {
          shift_right<1>(d & i32(4)) | shift_right<2>(y & i32(4));
 }
 
-// Exactly round(64 * opacity) of the 64 pixels of a mask tile accept.
-HWY_INLINE Mask screen_door(F32 opacity, I32 pixel) {
-  return dither_rank(pixel) < round_i32(clamp_(opacity, F32::zero(), f32(1.0f)) * f32(64.0f));
+// Ranks at a sample are those of the pixels, shifted around: the samples of a pixel have ranks 64 / samples apart, so about
+// samples * opacity of them accept.
+HWY_INLINE I32 sample_shift(const Frame& frame, const HitLanes& hits) {
+  return i32(hits.place == 0 ? 0 : (hits.place - 1) * (64 / frame.places.count));
+}
+
+// Exactly round(64 * opacity) of the 64 pixels of a mask tile accept, at every sample.
+HWY_INLINE Mask screen_door(F32 opacity, I32 pixel, I32 shift) {
+  return ((dither_rank(pixel) + shift) & i32(63)) < round_i32(clamp_(opacity, F32::zero(), f32(1.0f)) * f32(64.0f));
 }
 
 // map_d at the footprint of the hit, times factor.
@@ -53,7 +59,7 @@ HWY_INLINE Mask accept_lanes(const Frame& frame, const HitLanes& hits, const Mat
   F32 opacity = f32(factor);
   if (has_use(*frame.scene, i32(material.map_opacity), hits.valid))
     opacity = mask_opacity(frame, hits, material.map_opacity, factor);
-  if (kind == MaterialTransparency::kScreenDoor) return screen_door(opacity, hits.pixel);
+  if (kind == MaterialTransparency::kScreenDoor) return screen_door(opacity, hits.pixel, sample_shift(frame, hits));
   if (kind == MaterialTransparency::kMask) return opacity >= f32(0.5f);
   return first_lanes(kLanes);
 }

@@ -41,6 +41,16 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("glass_screen_door", "glass.toml", 0, [](Settings& s) { s.transparency = Transparency::kScreenDoor; });
   add("hall", "hall.toml", 0, all_on);
   add("hall_aisle", "hall.toml", 1, all_on);
+  const auto samples = [](int count, Antialiasing mode) {
+    return [=](Settings& s) { s.width = 160, s.height = 90, s.samples = count, s.antialiasing = mode; };
+  };
+  add("hall_samples", "hall.toml", 0, samples(4, Antialiasing::kMultisample));
+  add("spheres_supersamples", "spheres.toml", 0, samples(4, Antialiasing::kSupersample));
+  add("glass_samples", "glass.toml", 0, samples(8, Antialiasing::kMultisample));
+  add("gauze_samples_rays", "gauze.toml", 0, [=](Settings& s) {
+    samples(16, Antialiasing::kMultisample)(s);
+    s.visibility = Visibility::kRay;
+  });
   return frames;
 }
 
