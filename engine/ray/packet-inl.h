@@ -1,5 +1,5 @@
-// Coherent rays down the tree together: lanes are rays, one box at a time. Leaves, and subtrees that few rays reach, take the
-// rays one by one (ray/traverse-inl.h), so incoherent packets cost little more than single rays. Included once a target.
+// Coherent rays down the tree together: lanes are rays. At each node the beam of all rays sorts out children, then one box at a time;
+// at each leaf one triangle at a time. Where few rays are left they go on alone (ray/traverse-inl.h). Included once a target.
 // Source:   Wald, Slusallek, Benthin, Wagner 2001, "Interactive Rendering with Coherent Ray Tracing"; Benthin, Wald, Woop, Ernst,
 //           Mark 2012, "Combining Single and Packet-Ray Tracing for Arbitrary Ray Distributions on the Intel MIC Architecture".
 // Contract: finds what single rays find, for every packet size: boxes cull by the same arithmetic, hit_triangle() decides.
@@ -14,133 +14,234 @@
 #include <cstdint>
 #include <limits>
 
-#include "ray/traverse-inl.h"
-#include "simd/lanes-inl.h"
+#include "ray/beam-inl.h"
+#include "ray/packet_leaf-inl.h"
+#include "ray/visitors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 
-inline constexpr int kPacketRays = kLanes;
 inline constexpr int kFewRays = 2;  // that many left in a packet go on by themselves
 
+// The rays that meet child c, and where they enter it. The arithmetic of slab().
+struct LaneBox { Mask meets; F32 near; };
+template <bool kMixed> HWY_INLINE LaneBox box_lanes(const RayPacket& p, const BvhNode& node, int c) {
+  F32 near = F32::zero(), far = p.limit;
+  for (int k = 0; k < 3; ++k) {
+    const int near_row = kMixed ? k : p.near_row[k], far_row = kMixed ? k + 3 : p.far_row[k];
+    F32 to_near = f32(node.bounds[near_row][c]), to_far = f32(node.bounds[far_row][c]);
+    if constexpr (kMixed) {
+      const F32 low = to_near, high = to_far;
+      to_near = select(p.negative[k], high, low), to_far = select(p.negative[k], low, high);
+    }
+    near = cull_max((to_near - p.origin[k]) * p.inv_near[k], near);
+    far = cull_min((to_far - p.origin[k]) * p.inv_far[k], far);
+  }
+  return {near <= far, near};
+}
+
+// ---- any hit ---------------------------------------------------------------------------------------------------------
+
+struct AnyEntry { uint32_t child, rays; };
+
+struct AnyPacket {
+  const Bvh::Data& data;
+  const Batch& batch;
+  RayPacket p;
+  PacketLanes lanes;
+  int first;       // ray of lane 0
+  uint32_t alive;  // rays without a hit
+
+  AnyPacket(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
+
+  HWY_INLINE void start(int at, int n) {
+    first = at;
+    prepare_packet(data, batch.rays, at, n, p);
+    alive = p.valid;
+    if (alive != 0) store_lanes(p, lanes);
+  }
+
+  HWY_INLINE void alone(AnyEntry entry) {
+    for (uint32_t rest = entry.rays; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      LaneRay ray;
+      take_lane(lanes, i, ray);
+      AnyVisitor visitor{batch, ray.exact, first + i, lanes.limit[i]};
+      traverse(data, {0.0f, entry.child}, ray, visitor);
+      if (visitor.found) alive &= ~(1u << i);
+    }
+  }
+
+  HWY_INLINE void leaf(AnyEntry entry) {
+    const TriangleBlock& block = data.blocks[leaf_block(entry.child)];
+    const int triangles = static_cast<int>(leaf_triangles(entry.child));
+    for (int j = 0; j < triangles && (entry.rays & alive) != 0; ++j) {
+      const LaneHits hits = triangle_lanes<true>(p, block, j);
+      const uint32_t sure = hits.sure & entry.rays & alive;
+      if (sure != 0 && batch.takes_all(block.primitive[j])) alive &= ~sure;
+      for (uint32_t rest = hits.maybe & entry.rays & alive; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        LaneRay ray;
+        take_lane(lanes, i, ray);
+        AnyVisitor visitor{batch, ray.exact, first + i, lanes.limit[i]};
+        if (visit_triangle(block, j, ray, visitor)) alive &= ~(1u << i);
+      }
+    }
+  }
+
+  template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
+    AnyEntry stack[kBvhStackSize];
+    stack[0] = {0, alive};
+    int top = 1;
+    while (top > 0) {
+      AnyEntry entry = stack[--top];
+      entry.rays &= alive;
+      if (entry.rays == 0) continue;
+      if (std::popcount(entry.rays) <= kFewRays) {
+        alone(entry);
+      } else if ((entry.child & kLeafBit) != 0) {
+        leaf(entry);
+      } else {
+        const BvhNode& node = data.nodes[entry.child];
+        for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
+          const int c = std::countr_zero(rest);
+          const uint32_t rays = to_bits(box_lanes<kMixed>(p, node, c).meets) & entry.rays;
+          if (rays != 0) stack[top++] = {node.child[c], rays};
+        }
+      }
+    }
+  }
+
+  HWY_INLINE void run() {
+    const Beam beam = make_beam(p);
+    if (p.mixed_axes == 0) descend<false>(beam);
+    else descend<true>(beam);
+  }
+};
+
+// ---- closest hit -----------------------------------------------------------------------------------------------------
+
 struct PacketEntry {
-  alignas(64) float near[kPacketRays];
+  alignas(64) float near[kLanes];
   uint32_t child;
 };
 
-template <class Visitor>
-struct Packet {
-  LaneRay ray[kPacketRays];
-  Visitor visitor[kPacketRays];
-  alignas(64) float limit[kPacketRays];  // of the visitors
-  F32 origin[3], inv_near[3], inv_far[3];
-  const int* near_row;  // of all rays
-  const int* far_row;
+struct ClosestPacket {
+  const Bvh::Data& data;
+  const Batch& batch;
+  RayPacket p;
+  PacketLanes lanes;
+  alignas(64) double best_t[kLanes];  // t_max until something is hit
+  alignas(64) uint32_t best[kLanes];
+  int first;  // ray of lane 0
+
+  ClosestPacket(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
+
+  HWY_INLINE void start(int at, int n) {
+    first = at;
+    prepare_packet(data, batch.rays, at, n, p);
+    i32(kNoPrimitive).store(best);
+    if (p.valid == 0) return;
+    store_lanes(p, lanes);
+    p.t_max.store(best_t);
+  }
+
+  // near: where the rays enter `child`, nullptr for 0.
+  HWY_INLINE void alone(uint32_t child, const float* near, uint32_t rays) {
+    for (uint32_t rest = rays; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      LaneRay ray;
+      take_lane(lanes, i, ray);
+      ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], round_up(best_t[i])};
+      traverse(data, {near != nullptr ? near[i] : 0.0f, child}, ray, visitor);
+      best_t[i] = visitor.best_t, best[i] = visitor.best;
+    }
+    p.limit = round_up_lanes(F64::load(best_t));
+  }
+
+  // Takes the hits of some lanes with one triangle.
+  HWY_INLINE void take(uint32_t hit, F64 t, uint32_t primitive) {
+    const F64 before = F64::load(best_t);
+    const uint32_t nearer = bits_less(t, before), same = ~(nearer | bits_less(before, t));
+    uint32_t counts = hit & (nearer | (same & ~to_bits(less_unsigned(I32::load(best), i32(primitive)))));
+    if (counts == 0) return;
+    if (!batch.takes_all(primitive))
+      for (uint32_t rest = counts; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
+        if (!batch.accepts(first + i, origin, primitive)) counts &= ~(1u << i);
+      }
+    const Mask m = mask_from_bits(counts);
+    const F64 after = select(m, t, before);
+    after.store(best_t);
+    select(m, i32(primitive), I32::load(best)).store(best);
+    p.limit = round_up_lanes(after);
+  }
+
+  HWY_INLINE void leaf(uint32_t child, uint32_t rays) {
+    const TriangleBlock& block = data.blocks[leaf_block(child)];
+    const int triangles = static_cast<int>(leaf_triangles(child));
+    for (int j = 0; j < triangles; ++j) {
+      const uint32_t maybe = triangle_lanes<false>(p, block, j).maybe & rays;
+      if (maybe == 0) continue;
+      const ExactLanes exact = exact_lanes(p, block, j);
+      if ((exact.hit & maybe) != 0) take(exact.hit & maybe, exact.t, block.primitive[j]);
+      for (uint32_t rest = exact.behind & maybe; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        LaneRay ray;
+        take_lane(lanes, i, ray);
+        ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], 0};
+        visit_triangle(block, j, ray, visitor);
+        best_t[i] = visitor.best_t, best[i] = visitor.best;
+        p.limit = round_up_lanes(F64::load(best_t));
+      }
+    }
+  }
+
+  // Pushes the children that rays meet, so that the nearest of the first such ray is popped first.
+  template <bool kMixed> HWY_INLINE int push_children(const BvhNode& node, const Beam& beam, PacketEntry* stack, int top) {
+    float key[kBvhWidth];
+    const int bottom = top;
+    for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
+      const int c = std::countr_zero(rest);
+      const LaneBox box = box_lanes<kMixed>(p, node, c);
+      const uint32_t bits = to_bits(box.meets) & p.valid;
+      if (bits == 0) continue;
+      const F32 entry = select(box.meets, box.near, f32(std::numeric_limits<float>::infinity()));
+      alignas(64) float lanes_near[kLanes];
+      entry.store(lanes_near);
+      const float nearest = lanes_near[std::countr_zero(bits)];
+      int at = top++;
+      for (; at > bottom && key[at - 1 - bottom] < nearest; --at) stack[at] = stack[at - 1], key[at - bottom] = key[at - 1 - bottom];
+      entry.store(stack[at].near);
+      stack[at].child = node.child[c];
+      key[at - bottom] = nearest;
+    }
+    return top;
+  }
+
+  template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
+    PacketEntry stack[kBvhStackSize];
+    F32::zero().store(stack[0].near);
+    stack[0].child = 0;
+    int top = 1;
+    while (top > 0) {
+      const PacketEntry& entry = stack[--top];
+      const uint32_t child = entry.child, active = to_bits(F32::load(entry.near) <= p.limit) & p.valid;
+      if (active == 0) continue;
+      if (std::popcount(active) <= kFewRays) alone(child, entry.near, active);
+      else if ((child & kLeafBit) != 0) leaf(child, active);
+      else top = push_children<kMixed>(data.nodes[child], beam, stack, top);
+    }
+  }
+
+  HWY_INLINE void run() {
+    const Beam beam = make_beam(p);
+    if (p.mixed_axes == 0) descend<false>(beam);
+    else descend<true>(beam);
+  }
 };
-
-HWY_INLINE F32 packet_cull_min(F32 a, F32 b) { return {hn::Min(a.v, b.v)}; }  // see cull_min()
-HWY_INLINE F32 packet_cull_max(F32 a, F32 b) { return {hn::Max(a.v, b.v)}; }
-HWY_INLINE uint32_t packet_bits(Mask m) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(DF(), m.m, bytes);
-  return (bytes[0] | static_cast<uint32_t>(bytes[1]) << 8) & ((1u << kPacketRays) - 1);
-}
-
-// Arrays of the rays; false if they do not all point into one octant.
-template <class Visitor>
-HWY_INLINE bool gather_packet(Packet<Visitor>& p) {
-  alignas(64) float rows[9][kPacketRays];
-  for (int i = 0; i < kPacketRays; ++i) {
-    const TraceRay& r = p.ray[i].exact;
-    for (int k = 0; k < 3; ++k) {
-      if (r.negative[k] != p.ray[0].exact.negative[k]) return false;
-      rows[k][i] = r.origin[k], rows[3 + k][i] = r.inv_near[k], rows[6 + k][i] = r.inv_far[k];
-    }
-    p.limit[i] = p.visitor[i].limit;
-  }
-  for (int k = 0; k < 3; ++k) p.origin[k] = F32::load(rows[k]), p.inv_near[k] = F32::load(rows[3 + k]), p.inv_far[k] = F32::load(rows[6 + k]);
-  p.near_row = p.ray[0].near_row, p.far_row = p.ray[0].far_row;
-  return true;
-}
-
-// Pushes the children that any ray meets, so that the nearest of the first such ray is popped first.
-template <class Visitor>
-HWY_INLINE int push_children(const BvhNode& node, const Packet<Visitor>& p, PacketEntry* stack, int top) {
-  float key[kBvhWidth];
-  const F32 limit = F32::load(p.limit);
-  const int bottom = top;
-  for (int c = 0; c < kBvhWidth && node.bounds[0][c] <= node.bounds[3][c]; ++c) {
-    F32 near = F32::zero(), far = limit;
-    for (int k = 0; k < 3; ++k) {  // the arithmetic of slab()
-      near = packet_cull_max((f32(node.bounds[p.near_row[k]][c]) - p.origin[k]) * p.inv_near[k], near);
-      far = packet_cull_min((f32(node.bounds[p.far_row[k]][c]) - p.origin[k]) * p.inv_far[k], far);
-    }
-    const Mask meets = near <= far;
-    const uint32_t bits = packet_bits(meets);
-    if (bits == 0) continue;
-    alignas(64) float entry[kPacketRays];
-    select(meets, near, f32(std::numeric_limits<float>::infinity())).store(entry);
-    const float first = entry[std::countr_zero(bits)];
-    int at = top++;
-    for (; at > bottom && key[at - 1 - bottom] < first; --at) stack[at] = stack[at - 1], key[at - bottom] = key[at - 1 - bottom];
-    F32::load(entry).store(stack[at].near);
-    stack[at].child = node.child[c];
-    key[at - bottom] = first;
-  }
-  return top;
-}
-
-// All rays of a packet down the tree together; the few that a subtree concerns go down it alone.
-template <class Visitor>
-HWY_INLINE void traverse_packet(const Bvh::Data& data, Packet<Visitor>& p) {
-  PacketEntry stack[kBvhStackSize];
-  for (float& n : stack[0].near) n = 0;
-  stack[0].child = 0;
-  int top = 1;
-  while (top > 0) {
-    const PacketEntry& entry = stack[--top];
-    const uint32_t child = entry.child;
-    uint32_t active = packet_bits(F32::load(entry.near) <= F32::load(p.limit));
-    if (active == 0) continue;
-    const bool leaf = (child & kLeafBit) != 0;
-    if (!leaf && std::popcount(active) > kFewRays) {
-      top = push_children(data.nodes[child], p, stack, top);
-      continue;
-    }
-    for (; active != 0; active &= active - 1) {
-      const int i = std::countr_zero(active);
-      if (leaf) visit_leaf(data, child, p.ray[i], p.visitor[i]);
-      else traverse(data, {entry.near[i], child}, p.ray[i], p.visitor[i]);
-      p.limit[i] = p.visitor[i].limit;
-    }
-  }
-}
-
-// Visitor{batch, i, ray} for each ray i of the batch that is one, then finish(i, visitor).
-template <class Visitor, class Batch, class Finish>
-HWY_INLINE void trace_batch(const Bvh::Data& data, const Batch& batch, const Finish& finish) {
-  const RayBatch& rays = batch.rays;
-  Packet<Visitor> p;
-  for (int first = 0; first < rays.count; first += kPacketRays) {
-    const int n = rays.count - first < kPacketRays ? rays.count - first : kPacketRays;
-    bool valid[kPacketRays];
-    int alive = 0;
-    for (int i = 0; i < n; ++i) {
-      valid[i] = !data.nodes.empty() && prepare_lane_ray(data, rays, first + i, p.ray[i]);
-      if (valid[i]) p.visitor[i].begin(batch, first + i, p.ray[i].exact);
-      alive += valid[i];
-    }
-    if (kPacketRays > kFewRays && alive == kPacketRays && gather_packet(p)) {
-      traverse_packet(data, p);
-    } else {
-      for (int i = 0; i < n; ++i)
-        if (valid[i]) traverse(data, {0.0f, 0}, p.ray[i], p.visitor[i]);
-    }
-    for (int i = 0; i < n; ++i)
-      if (valid[i]) finish(first + i, p.visitor[i]);
-  }
-}
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE

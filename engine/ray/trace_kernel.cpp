@@ -2,6 +2,7 @@
 // Input:    any rays; those that prepare_ray() refuses miss.
 // Contract: what is found is what hit_triangle() over all triangles finds, with ties in t to the lowest primitive, whatever the tree,
 //           the order of the batch and the instruction set.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -18,93 +19,44 @@
 #define HWY_TARGET_INCLUDE "ray/trace_kernel.cpp"
 #include "hwy/foreach_target.h"
 #include "ray/packet-inl.h"
-#include "ray/traverse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 
-// Does the surface itself take the hit? Asked only for hits that count.
-HWY_INLINE bool accepts(const Frame& frame, const RayBatch& rays, int ray, const float* origin, uint32_t primitive, bool cull_back) {
-  if (cull_back && !(facing(*frame.scene, frame.scene->triangles[primitive], {origin[0], origin[1], origin[2]}) > 0)) return false;
-  if (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
-  return frame.accept_ray(frame, rays, ray, primitive);
-}
+// Whole packets go down the tree together if their rays point into one octant, or nearly.
+constexpr int kMixedAxes = 1;
 
-struct Batch {
-  const Frame& frame;
-  const RayBatch& rays;
-  bool cull_back;
-};
-
-struct ClosestVisitor {
-  const Batch* batch;
-  const float* origin;
-  int index;
-  float limit;  // >= best_t
-  double best_t;
-  uint32_t best;
-  HWY_INLINE void begin(const Batch& b, int i, const TraceRay& ray) {
-    batch = &b, origin = ray.origin, index = i, limit = round_up(ray.t_max), best_t = ray.t_max, best = kNoPrimitive;
-  }
-  HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (t > best_t || (t == best_t && primitive > best)) return false;
-    if (!accepts(batch->frame, batch->rays, index, origin, primitive, batch->cull_back)) return false;
-    best_t = t, best = primitive, limit = round_up(t);
-    return false;
-  }
-};
-
-struct AnyVisitor {
-  const Batch* batch;
-  const float* origin;
-  int index;
-  float limit;
-  double t_max;
-  bool found;
-  HWY_INLINE void begin(const Batch& b, int i, const TraceRay& ray) {
-    batch = &b, origin = ray.origin, index = i, limit = round_up(ray.t_max), t_max = ray.t_max, found = false;
-  }
-  HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (!(t <= t_max) || !accepts(batch->frame, batch->rays, index, origin, primitive, false)) return false;
-    limit = -1;  // no box and no triangle is near enough any more
-    return found = true;
-  }
-};
-
-struct AllVisitor {
-  const Batch& batch;
-  const TraceRay& ray;
-  int index;
-  float limit;
-  FragmentList& out;
-  HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (t <= ray.t_max && accepts(batch.frame, batch.rays, index, ray.origin, primitive, batch.cull_back)) {
-      out.pixel.push_back(batch.rays.pixel[index]);
-      out.ray.push_back(static_cast<uint32_t>(index));
-      out.primitive.push_back(primitive);
-    }
-    return false;
-  }
-};
-
-struct StoreClosest {
-  uint32_t* out;
-  HWY_INLINE void operator()(int i, const ClosestVisitor& v) const { out[i] = v.best; }
-};
-struct StoreAny {
-  uint32_t* out;
-  HWY_INLINE void operator()(int i, const AnyVisitor& v) const { out[i / 32] |= static_cast<uint32_t>(v.found) << (i % 32); }
-};
+template <class Packet> HWY_INLINE bool coherent(const Packet& p) { return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays; }
 
 void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
-  for (int i = 0; i < rays.count; ++i) out[i] = kNoPrimitive;
-  trace_batch<ClosestVisitor>(data, Batch{frame, rays, frame.settings.culling == Culling::kBack}, StoreClosest{out});
+  std::fill_n(out, rays.count, kNoPrimitive);
+  if (data.nodes.empty()) return;
+  const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
+  ClosestPacket packet(data, batch);
+  for (int first = 0; first < rays.count; first += kLanes) {
+    const int n = rays.count - first < kLanes ? rays.count - first : kLanes;
+    packet.start(first, n);
+    if (packet.p.valid == 0) continue;
+    if (coherent(packet.p)) packet.run();
+    else packet.alone(0, nullptr, packet.p.valid);
+    for (int i = 0; i < n; ++i) out[first + i] = packet.best[i];
+  }
 }
 
 void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
-  for (int i = 0; i < (rays.count + 31) / 32; ++i) out[i] = 0;
-  trace_batch<AnyVisitor>(data, Batch{frame, rays, false}, StoreAny{out});
+  std::fill_n(out, (rays.count + 31) / 32, 0u);
+  if (data.nodes.empty()) return;
+  const Batch batch{frame, rays, false};
+  AnyPacket packet(data, batch);
+  for (int first = 0; first < rays.count; first += kLanes) {
+    packet.start(first, rays.count - first < kLanes ? rays.count - first : kLanes);
+    const uint32_t all_rays = packet.alive;
+    if (all_rays == 0) continue;
+    if (coherent(packet.p)) packet.run();
+    else packet.alone({0, all_rays});
+    out[first / 32] |= (all_rays & ~packet.alive) << (first % 32);
+  }
 }
 
 // Hits of one ray stay together, in no order: no packets, which would mix them.

@@ -68,12 +68,16 @@ HWY_INLINE uint32_t hit_children(const BvhNode& node, const LaneRay& ray, float 
   return bits;
 }
 
-// Which triangles of a leaf might be hit at no more than limit: all that hit_triangle() would accept, and few others.
-HWY_INLINE uint32_t candidates(const TriangleBlock& block, const LaneRay& ray, float limit) {
+// Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
+// that it accepts, and at less than limit: the ray passes inside by more than the error of the edge functions, every vertex is in front
+// of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
+// 8 roundings too small).
+struct Candidates { uint32_t maybe, sure; };
+template <bool kSure> HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray, float limit) {
   const int kx = ray.exact.kx, ky = ray.exact.ky, kz = ray.exact.kz;
   const F8 ox = f8(ray.exact.origin[kx]), oy = f8(ray.exact.origin[ky]), oz = f8(ray.exact.origin[kz]);
   const F8 shear_x = f8(ray.shear_x), shear_y = f8(ray.shear_y), inv_z = f8(ray.exact.inv_near[kz]);
-  uint32_t bits = 0;
+  Candidates found{0, 0};
   for (int s = 0; s < kBvhWidth; s += kLanes8) {
     F8 x[3], y[3], t[3];
     for (int v = 0; v < 3; ++v) {
@@ -90,9 +94,14 @@ HWY_INLINE uint32_t candidates(const TriangleBlock& block, const LaneRay& ray, f
     const F8 least = cull_min(cull_min(edge_u, edge_v), edge_w), greatest = cull_max(cull_max(edge_u, edge_v), edge_w);
     const F8 first = cull_min(cull_min(t[0], t[1]), t[2]), last = cull_max(cull_max(t[0], t[1]), t[2]);
     const Mask8 miss = ((least < -error) & (greatest > error)) | (first > f8(limit)) | (last < f8(0.0f));
-    bits |= (~to_bits(miss) & ((1u << kLanes8) - 1)) << s;
+    const uint32_t maybe = ~to_bits(miss) & ((1u << kLanes8) - 1);
+    found.maybe |= maybe << s;
+    if constexpr (kSure) {
+      const Mask8 sure = ((least > error) | (greatest < -error)) & (first > f8(0.0f)) & (last * f8(1 + 0x1p-20f) < f8(limit));
+      found.sure |= (to_bits(sure) & maybe) << s;
+    }
   }
-  return bits;
+  return found;
 }
 
 struct StackEntry {
@@ -100,35 +109,42 @@ struct StackEntry {
   uint32_t child;
 };
 
-// Pushes the children in `bits` so that the nearest is popped first.
-HWY_INLINE int push_sorted(const BvhNode& node, uint32_t bits, const float* near, StackEntry* stack, int top) {
-  const int bottom = top;
+// Pushes the children in `bits`; sorted: so that the nearest is popped first.
+template <bool kSorted> HWY_INLINE int push(const BvhNode& node, uint32_t bits, const float* near, StackEntry* stack, int top) {
+  [[maybe_unused]] const int bottom = top;
   for (; bits != 0; bits &= bits - 1) {
     const int c = std::countr_zero(bits);
     const StackEntry entry{near[c], node.child[c]};
     int at = top++;
-    for (; at > bottom && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
+    if constexpr (kSorted)
+      for (; at > bottom && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
     stack[at] = entry;
   }
   return top;
+}
+
+template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& block, int lane, const LaneRay& ray, Visitor& visitor) {
+  double t;
+  return hit_triangle(ray.exact, TriangleView{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth}, t) && visitor.hit(t, block.primitive[lane]);
 }
 
 // Tests the triangles of a leaf; true if the visitor wants to end.
 template <class Visitor>
 HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
   const TriangleBlock& block = data.blocks[leaf_block(child)];
-  uint32_t bits = candidates(block, ray, visitor.limit) & ((2u << (leaf_triangles(child) - 1)) - 1);
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = std::countr_zero(bits);
-    double t;
-    if (hit_triangle(ray.exact, TriangleView{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth}, t) && visitor.hit(t, block.primitive[lane]))
-      return true;
+  const uint32_t used = (2u << (leaf_triangles(child) - 1)) - 1;
+  const Candidates found = candidates<Visitor::kAny>(block, ray, visitor.limit);
+  if constexpr (Visitor::kAny)
+    for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
+      if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
+  for (uint32_t bits = found.maybe & used; bits != 0; bits &= bits - 1) {
+    if (visit_triangle(block, std::countr_zero(bits), ray, visitor)) return true;
   }
   return false;
 }
 
-// Visits what the ray may hit at or below `start` at no more than visitor.limit, near first. visitor.hit(t, primitive) is called
-// for every hit found and returns true to end.
+// Visits what the ray may hit at or below `start` at no more than visitor.limit: near first, but for kAny in no order. visitor.hit(t, primitive)
+// is called for every hit found, visitor.certain(primitive) where kAny needs no t; both return true to end.
 template <class Visitor>
 HWY_INLINE void traverse(const Bvh::Data& data, StackEntry start, const LaneRay& ray, Visitor& visitor) {
   StackEntry stack[kBvhStackSize];
@@ -144,7 +160,7 @@ HWY_INLINE void traverse(const Bvh::Data& data, StackEntry start, const LaneRay&
     const BvhNode& node = data.nodes[entry.child];
     alignas(32) float near[kBvhWidth];
     const uint32_t bits = hit_children(node, ray, visitor.limit, near);
-    top = push_sorted(node, bits, near, stack, top);
+    top = push<!Visitor::kAny>(node, bits, near, stack, top);
   }
 }
 

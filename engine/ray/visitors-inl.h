@@ -1,0 +1,94 @@
+// What becomes of the hits of one ray: the closest, any, all. Included once a target.
+#if defined(SPANRAY_VISITORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_VISITORS_INL_H_
+#undef SPANRAY_VISITORS_INL_H_
+#else
+#define SPANRAY_VISITORS_INL_H_
+#endif
+
+#include "frame/frame.h"
+#include "ray/bvh_data.h"
+#include "ray/triangle_test.h"
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+
+struct Batch {
+  const Frame& frame;
+  const RayBatch& rays;
+  bool cull_back;
+
+  // Does the surface itself take the hit? Asked only for hits that count.
+  HWY_INLINE bool accepts(int ray, const float* origin, uint32_t primitive) const {
+    const SceneData& scene = *frame.scene;
+    if (cull_back && !(facing(scene, scene.triangles[primitive], {origin[0], origin[1], origin[2]}) > 0)) return false;
+    if (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
+    return frame.accept_ray(frame, rays, ray, primitive);
+  }
+  // It takes every hit.
+  HWY_INLINE bool takes_all(uint32_t primitive) const {
+    return !cull_back && (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked));
+  }
+};
+
+struct ClosestVisitor {
+  static constexpr bool kAny = false;
+  const Batch& batch;
+  const TraceRay& ray;
+  int index;
+  double best_t;
+  uint32_t best;
+  float limit;  // >= best_t
+  HWY_INLINE bool certain(uint32_t) const { return false; }
+  HWY_INLINE bool hit(double t, uint32_t primitive) {
+    if (t > best_t || (t == best_t && primitive > best)) return false;
+    if (!batch.accepts(index, ray.origin, primitive)) return false;
+    best_t = t, best = primitive, limit = round_up(t);
+    return false;
+  }
+};
+
+struct AnyVisitor {
+  static constexpr bool kAny = true;
+  const Batch& batch;
+  const TraceRay& ray;
+  int index;
+  float limit;
+  bool found = false;
+  // Every ray that meets the triangle is stopped.
+  HWY_INLINE bool certain(uint32_t primitive) {
+    if (!batch.takes_all(primitive)) return false;
+    return found = true;
+  }
+  HWY_INLINE bool hit(double t, uint32_t primitive) {
+    if (!(t <= ray.t_max) || !batch.accepts(index, ray.origin, primitive)) return false;
+    return found = true;
+  }
+};
+
+struct AllVisitor {
+  static constexpr bool kAny = false;
+  const Batch& batch;
+  const TraceRay& ray;
+  int index;
+  float limit;
+  FragmentList& out;
+  HWY_INLINE bool certain(uint32_t) const { return false; }
+  HWY_INLINE bool hit(double t, uint32_t primitive) {
+    if (t <= ray.t_max && batch.accepts(index, ray.origin, primitive)) {
+      out.pixel.push_back(batch.rays.pixel[index]);
+      out.ray.push_back(static_cast<uint32_t>(index));
+      out.primitive.push_back(primitive);
+    }
+    return false;
+  }
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_VISITORS_INL_H_
