@@ -41,6 +41,18 @@ template <bool kMixed> HWY_INLINE LaneBox box_lanes(const RayPacket& p, const Bv
   return {near <= far, near};
 }
 
+// Of some rays of a packet, those whose hit the surface takes. first: the ray of lane 0.
+HWY_INLINE uint32_t ask(const Batch& batch, const PacketLanes& lanes, int first, uint32_t rays, uint32_t primitive) {
+  if (batch.takes_all(primitive)) return rays;
+  uint32_t taken = 0;
+  for (; rays != 0; rays &= rays - 1) {
+    const int i = std::countr_zero(rays);
+    const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
+    taken |= static_cast<uint32_t>(batch.accepts(first + i, origin, primitive)) << i;
+  }
+  return taken;
+}
+
 // ---- any hit ---------------------------------------------------------------------------------------------------------
 
 struct AnyEntry { uint32_t child, rays; };
@@ -78,15 +90,16 @@ struct AnyPacket {
     const int triangles = static_cast<int>(leaf_triangles(entry.child));
     for (int j = 0; j < triangles && (entry.rays & alive) != 0; ++j) {
       const LaneHits hits = triangle_lanes<true>(p, block, j);
+      const uint32_t primitive = block.primitive[j];
       const uint32_t sure = hits.sure & entry.rays & alive;
-      if (sure != 0 && batch.takes_all(block.primitive[j])) alive &= ~sure;
-      for (uint32_t rest = hits.maybe & entry.rays & alive; rest != 0; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        LaneRay ray;
-        take_lane(lanes, i, ray);
-        AnyVisitor visitor{batch, ray.exact, first + i, lanes.limit[i]};
-        if (visit_triangle(block, j, ray, visitor)) alive &= ~(1u << i);
-      }
+      if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure;
+      const uint32_t maybe = hits.maybe & entry.rays & alive;
+      if (maybe == 0) continue;
+      const ExactLanes exact = exact_lanes(p, block, j);
+      uint32_t found = exact.hit & maybe;
+      if (found != 0) found &= ~bits_less(p.t_max, exact.t);
+      if (found != 0) found = ask(batch, lanes, first, found, primitive);
+      alive &= ~found;
     }
   }
 
@@ -165,13 +178,8 @@ struct ClosestPacket {
     const F64 before = F64::load(best_t);
     const uint32_t nearer = bits_less(t, before), same = ~(nearer | bits_less(before, t));
     uint32_t counts = hit & (nearer | (same & ~to_bits(less_unsigned(I32::load(best), i32(primitive)))));
+    if (counts != 0) counts = ask(batch, lanes, first, counts, primitive);
     if (counts == 0) return;
-    if (!batch.takes_all(primitive))
-      for (uint32_t rest = counts; rest != 0; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
-        if (!batch.accepts(first + i, origin, primitive)) counts &= ~(1u << i);
-      }
     const Mask m = mask_from_bits(counts);
     const F64 after = select(m, t, before);
     after.store(best_t);
@@ -187,15 +195,6 @@ struct ClosestPacket {
       if (maybe == 0) continue;
       const ExactLanes exact = exact_lanes(p, block, j);
       if ((exact.hit & maybe) != 0) take(exact.hit & maybe, exact.t, block.primitive[j]);
-      for (uint32_t rest = exact.behind & maybe; rest != 0; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        LaneRay ray;
-        take_lane(lanes, i, ray);
-        ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], 0};
-        visit_triangle(block, j, ray, visitor);
-        best_t[i] = visitor.best_t, best[i] = visitor.best;
-        p.limit = round_up_lanes(F64::load(best_t));
-      }
     }
   }
 

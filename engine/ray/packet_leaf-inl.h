@@ -74,8 +74,8 @@ HWY_INLINE uint32_t bits_less(F64 a, F64 b) {
 HWY_INLINE F64 fmin_(F64 a, F64 b) { return select_lt(b, a, b, a); }  // std::min, std::max: a unless b is less, greater
 HWY_INLINE F64 fmax_(F64 a, F64 b) { return select_lt(a, b, b, a); }
 
-// hit_triangle() for lanes whose triangle is wholly in front of the origin; `behind`: where it is not.
-struct ExactLanes { F64 t; uint32_t hit, behind; };
+// hit_triangle() of all lanes with one triangle: its operations in its order.
+struct ExactLanes { F64 t; uint32_t hit; };
 HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block, int triangle) {
   F64 x[3], y[3], z[3];
   const F64 zero = f64(0.0);
@@ -90,11 +90,25 @@ HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block
   const F64 w = x[1] * y[0] - y[1] * x[0];
   const F64 det = u + v + w;
   const F64 least = fmin_(fmin_(u, v), w), greatest = fmax_(fmax_(u, v), w);  // finite: coordinates are floats
+  ExactLanes out;
+  out.hit = ~(bits_less(least, zero) & bits_less(zero, greatest)) & (bits_less(det, zero) | bits_less(zero, det));
+  if (out.hit == 0) return out;
+
   const F64 z_min = fmin_(fmin_(z[0], z[1]), z[2]), z_max = fmax_(fmax_(z[0], z[1]), z[2]);
   const F64 z_raw = (u * z[0] + v * z[1] + w * z[2]) / det;
   const F64 z_hit = select_lt(z_raw, z_min, z_min, select_lt(z_max, z_raw, z_max, z_raw));
   const uint32_t forward = bits_less(zero, p.direction_z);
   const uint32_t front = (forward & bits_less(zero, z_min)) | (~forward & bits_less(z_max, zero));
+  if ((out.hit & ~front) != 0) {
+    constexpr double e = 0x1p-53;
+    F64 s = zero;
+    for (int i = 0; i < 3; ++i) s = fmax_(s, fmax_(abs_(x[i]), abs_(y[i])));
+    const F64 reach = fmax_(abs_(z_min), abs_(z_max)), m = s + reach;
+    const F64 edge_error = f64(40 * e) * m * (s + f64(8 * e) * m);
+    const F64 size = abs_(det), error = f64(3) * edge_error * reach + f64(8 * e) * size * reach;
+    out.hit &= front | (bits_less(error, select_lt(zero, p.direction_z, z_hit, -z_hit) * size));
+    if (out.hit == 0) return out;
+  }
   F32 near = F32::zero(), far = f32(kLargestT);
   for (int k = 0; k < 3; ++k) {
     const float a = block.vertex[0][k][triangle], b = block.vertex[1][k][triangle], c = block.vertex[2][k][triangle];
@@ -105,11 +119,8 @@ HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block
     far = select(f < far, f, far);
   }
   const F64 t = z_hit / p.direction_z, near64 = to_f64(near), far64 = to_f64(far);
-  ExactLanes out;
   out.t = select_lt(t, near64, near64, select_lt(far64, t, far64, t));
-  const uint32_t inside = ~(bits_less(least, zero) & bits_less(zero, greatest)) & (bits_less(det, zero) | bits_less(zero, det));
-  out.behind = inside & ~front;
-  out.hit = inside & front & to_bits(near <= far);
+  out.hit &= to_bits(near <= far);
   return out;
 }
 

@@ -40,7 +40,7 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
 
 // The slots that hit something, as a batch: shading works on these only.
 void compact_hits(TileWorker& w, Level& level, bool primary) {
-  w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
+  w.order.group(level.primitive.data(), level.slots, primary && level.place.empty() ? level.columns : 0, level.slot_of_hit);
   const int n = static_cast<int>(level.slot_of_hit.size());
   level.hits.resize(n, true);
   const uint32_t* const slots = level.slot_of_hit.data();
@@ -249,6 +249,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
     level.resize(chunk.pixels(), job.frame.plan.translucents);
+    level.columns = chunk.columns;
     for (int y = y0, i = 0; y < chunk.y1; ++y)
       for (int x = chunk.x0; x < chunk.x0 + chunk.columns; ++x, ++i)
         level.pixel[i] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));

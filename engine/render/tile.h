@@ -41,6 +41,7 @@ struct Level {
   AlignedBuffer<uint32_t> slot_of_hit;
   SurfaceBatch surfaces;
   int slots = 0;
+  int columns = 0;  // level 0 with one sample a pixel: slots are rows of so many pixels
 
   void resize(int n, bool translucents);
   size_t memory_bytes() const;
