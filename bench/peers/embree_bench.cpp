@@ -1,5 +1,6 @@
 // embree_bench SCENE: our tracer and Embree 3 answer the same rays of one of our frames, in turns; Mrays/s, and how far they agree.
 // A table on stdout. Exit 0 done, 1 could not (or they disagree and --require-agreement was given), 2 wrong usage.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -42,12 +43,14 @@ struct Options {
   demo::FrameOptions frame;
   int passes = 7, builds = 3;
   bool require_agreement = false, header = false;
+  std::vector<std::string> rays;  // kinds; empty: all
   std::string json, label;
 };
 
 void add_options(CLI::App& app, Options& o) {
   o.frame.add_to(app);
   app.add_option("--passes", o.passes, "Timed passes over all rays of a kind, in turns")->check(CLI::Range(1, 10000));
+  app.add_option("--rays", o.rays, "Only these kinds, e.g. shadow,ao")->delimiter(',')->check(CLI::IsMember({"primary", "shadow", "mirror", "diffuse", "ao"}));
   app.add_option("--builds", o.builds, "Times that each tree is built")->check(CLI::Range(1, 1000));
   app.add_option("--json", o.json, "Append one JSON object, a line, to this file");
   app.add_option("--label", o.label, "Name of the scene in the table");
@@ -203,7 +206,7 @@ int compare(const CLI::App& app, const Options& o) {
                    {"embree_robust", build(robust.value()->build_ms(), robust.value()->memory_bytes())}};
   double least = 1;
   for (const RayClass& c : make_ray_classes(ours)) {
-    if (c.count() == 0) continue;
+    if (c.count() == 0 || (!o.rays.empty() && std::find(o.rays.begin(), o.rays.end(), c.name) == o.rays.end())) continue;
     std::vector<Cell> cells = make_cells(ours, *fast.value(), *robust.value());
     measure(o, c, parallel, scene, cells);
     print_line(o, threads, c, cells);

@@ -80,7 +80,7 @@ struct AnyPacket {
       LaneRay ray;
       take_lane(lanes, i, ray);
       AnyVisitor visitor{batch, ray.exact, first + i, lanes.limit[i]};
-      traverse(data, {0.0f, entry.child}, ray, visitor);
+      traverse(data, entry.child, 0.0f, ray, visitor);
       if (visitor.found) alive &= ~(1u << i);
     }
   }
@@ -167,7 +167,7 @@ struct ClosestPacket {
       LaneRay ray;
       take_lane(lanes, i, ray);
       ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], round_up(best_t[i])};
-      traverse(data, {near != nullptr ? near[i] : 0.0f, child}, ray, visitor);
+      traverse(data, child, near != nullptr ? near[i] : 0.0f, ray, visitor);
       best_t[i] = visitor.best_t, best[i] = visitor.best;
     }
     p.limit = round_up_lanes(F64::load(best_t));

@@ -66,7 +66,7 @@ void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
     LaneRay ray;
     if (!prepare_lane_ray(data, rays, i, ray)) continue;
     AllVisitor visitor{batch, ray.exact, i, round_up(ray.exact.t_max), out};
-    traverse(data, {0.0f, 0}, ray, visitor);
+    traverse(data, 0, 0.0f, ray, visitor);
   }
 }
 

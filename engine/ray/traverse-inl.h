@@ -52,20 +52,16 @@ HWY_INLINE bool prepare_lane_ray(const Bvh::Data& data, const RayBatch& rays, in
   return true;
 }
 
-// Which children the ray meets in [0, limit], and where it enters them. The arithmetic of slab(), eight boxes at a time.
-HWY_INLINE uint32_t hit_children(const BvhNode& node, const LaneRay& ray, float limit, float* near_out) {
-  uint32_t bits = 0;
-  for (int s = 0; s < kBvhWidth; s += kLanes8) {
-    F8 near = f8(0.0f), far = f8(limit);
-    for (int k = 0; k < 3; ++k) {
-      const F8 o = f8(ray.exact.origin[k]);
-      near = cull_max((F8::load(node.bounds[ray.near_row[k]] + s) - o) * f8(ray.exact.inv_near[k]), near);
-      far = cull_min((F8::load(node.bounds[ray.far_row[k]] + s) - o) * f8(ray.exact.inv_far[k]), far);
-    }
-    near.store(near_out + s);
-    bits |= to_bits(near <= far) << s;
+// Which of kLanes8 children from `first` on the ray meets in [0, limit], and where it enters them: the arithmetic of slab().
+struct BoxLanes { Mask8 meets; F8 near; };
+HWY_INLINE BoxLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
+  F8 near = f8(0.0f), far = f8(limit);
+  for (int k = 0; k < 3; ++k) {
+    const F8 o = f8(ray.exact.origin[k]);
+    near = cull_max((F8::load(node.bounds[ray.near_row[k]] + first) - o) * f8(ray.exact.inv_near[k]), near);
+    far = cull_min((F8::load(node.bounds[ray.far_row[k]] + first) - o) * f8(ray.exact.inv_far[k]), far);
   }
-  return bits;
+  return {near <= far, near};
 }
 
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
@@ -104,24 +100,36 @@ template <bool kSure> HWY_INLINE Candidates candidates(const TriangleBlock& bloc
   return found;
 }
 
-struct StackEntry {
-  float near;
-  uint32_t child;
-};
+// What is still to be visited: two arrays, since a pair that is written by halves and read whole would stall. A push may write kBvhWidth
+// entries past the last that counts.
+struct Stack {
+  float near[kBvhStackSize + kBvhWidth];
+  uint32_t child[kBvhStackSize + kBvhWidth];
+  int top = 0;
 
-// Pushes the children in `bits`; sorted: so that the nearest is popped first.
-template <bool kSorted> HWY_INLINE int push(const BvhNode& node, uint32_t bits, const float* near, StackEntry* stack, int top) {
-  [[maybe_unused]] const int bottom = top;
-  for (; bits != 0; bits &= bits - 1) {
-    const int c = std::countr_zero(bits);
-    const StackEntry entry{near[c], node.child[c]};
-    int at = top++;
-    if constexpr (kSorted)
-      for (; at > bottom && stack[at - 1].near < entry.near; --at) stack[at] = stack[at - 1];
-    stack[at] = entry;
+  // All children that the ray meets, in no order and without distances.
+  HWY_INLINE void push_any(const BvhNode& node, const LaneRay& ray, float limit) {
+    for (int s = 0; s < kBvhWidth; s += kLanes8) top += store_chosen(node.child + s, box_children(node, s, ray, limit).meets, child + top);
   }
-  return top;
-}
+
+  // The same so that the nearest is popped first.
+  HWY_INLINE void push_sorted(const BvhNode& node, const LaneRay& ray, float limit) {
+    alignas(32) float entry[kBvhWidth];
+    uint32_t bits = 0;
+    for (int s = 0; s < kBvhWidth; s += kLanes8) {
+      const BoxLanes box = box_children(node, s, ray, limit);
+      box.near.store(entry + s);
+      bits |= to_bits(box.meets) << s;
+    }
+    const int bottom = top;
+    for (; bits != 0; bits &= bits - 1) {
+      const int c = std::countr_zero(bits);
+      int at = top++;
+      for (; at > bottom && near[at - 1] < entry[c]; --at) near[at] = near[at - 1], child[at] = child[at - 1];
+      near[at] = entry[c], child[at] = node.child[c];
+    }
+  }
+};
 
 template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& block, int lane, const LaneRay& ray, Visitor& visitor) {
   double t;
@@ -143,24 +151,25 @@ HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay&
   return false;
 }
 
-// Visits what the ray may hit at or below `start` at no more than visitor.limit: near first, but for kAny in no order. visitor.hit(t, primitive)
-// is called for every hit found, visitor.certain(primitive) where kAny needs no t; both return true to end.
+// Visits what the ray may hit in the subtree or leaf `start`, entered at `near`, at no more than visitor.limit: near first, but for kAny in
+// no order. visitor.hit(t, primitive) is called for every hit found, visitor.certain(primitive) where kAny needs no t; both
+// return true to end.
 template <class Visitor>
-HWY_INLINE void traverse(const Bvh::Data& data, StackEntry start, const LaneRay& ray, Visitor& visitor) {
-  StackEntry stack[kBvhStackSize];
-  stack[0] = start;
-  int top = 1;
-  while (top > 0) {
-    const StackEntry entry = stack[--top];
-    if (entry.near > visitor.limit) continue;
-    if (entry.child & kLeafBit) {
-      if (visit_leaf(data, entry.child, ray, visitor)) return;
-      continue;
+HWY_INLINE void traverse(const Bvh::Data& data, uint32_t start, float near, const LaneRay& ray, Visitor& visitor) {
+  Stack stack;
+  stack.near[0] = near, stack.child[0] = start;
+  stack.top = 1;
+  while (stack.top > 0) {
+    --stack.top;
+    if (!Visitor::kAny && stack.near[stack.top] > visitor.limit) continue;
+    const uint32_t child = stack.child[stack.top];
+    if (child & kLeafBit) {
+      if (visit_leaf(data, child, ray, visitor)) return;
+    } else if constexpr (Visitor::kAny) {
+      stack.push_any(data.nodes[child], ray, visitor.limit);
+    } else {
+      stack.push_sorted(data.nodes[child], ray, visitor.limit);
     }
-    const BvhNode& node = data.nodes[entry.child];
-    alignas(32) float near[kBvhWidth];
-    const uint32_t bits = hit_children(node, ray, visitor.limit, near);
-    top = push<!Visitor::kAny>(node, bits, near, stack, top);
   }
 }
 

@@ -39,6 +39,12 @@ HWY_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return {hn8::Or(a.m, b.m)}; }
 // The machine's own: b if a is NaN, on every target; either zero if both are zeros. For culling only (DESIGN 3, rule 6).
 HWY_INLINE F8 cull_min(F8 a, F8 b) { return {hn8::Min(a.v, b.v)}; }
 HWY_INLINE F8 cull_max(F8 a, F8 b) { return {hn8::Max(a.v, b.v)}; }
+// The words of the lanes in m, side by side; up to kLanes8 words are written. Returns how many count.
+HWY_INLINE int store_chosen(const uint32_t* words, Mask8 m, uint32_t* out) {
+  const hn8::RebindToUnsigned<D8> du;
+  hn8::StoreU(hn8::Compress(hn8::LoadU(du, words), hn8::RebindMask(du, m.m)), du, out);
+  return static_cast<int>(hn8::CountTrue(D8(), m.m));
+}
 // Bit i is lane i.
 HWY_INLINE uint32_t to_bits(Mask8 a) {
   uint8_t bytes[8];
