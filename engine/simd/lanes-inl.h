@@ -244,17 +244,6 @@ HWY_INLINE F64 select_eq(F64 a, F64 b, F64 yes, F64 no) {
   for (int h = 0; h < kHalves; ++h) r.v[h] = hn::IfThenElse(hn::Eq(a.v[h], b.v[h]), yes.v[h], no.v[h]);
   return r;
 }
-HWY_INLINE F64 select(Mask m, F64 yes, F64 no) {
-  F64 r;
-#if HWY_TARGET == HWY_SCALAR
-  r.v[0] = any(m) ? yes.v[0] : no.v[0];
-#else
-  const auto bits = hn::VecFromMask(DI(), hn::RebindMask(DI(), m.m));
-  r.v[0] = hn::IfThenElse(hn::MaskFromVec(hn::BitCast(DD(), hn::PromoteTo(DDI(), hn::LowerHalf(DHI(), bits)))), yes.v[0], no.v[0]);
-  r.v[1] = hn::IfThenElse(hn::MaskFromVec(hn::BitCast(DD(), hn::PromoteTo(DDI(), hn::UpperHalf(DHI(), bits)))), yes.v[1], no.v[1]);
-#endif
-  return r;
-}
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
 HWY_INLINE F64 min_(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Min(a.v[h], b.v[h]); return r; }
 HWY_INLINE F64 max_(F64 a, F64 b) { F64 r; for (int h = 0; h < kHalves; ++h) r.v[h] = hn::Max(a.v[h], b.v[h]); return r; }
