@@ -81,6 +81,31 @@ void index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
   for (size_t i = 0; i + 1 < seen.start.size(); ++i) std::sort(seen.fragment.begin() + seen.start[i], seen.fragment.begin() + seen.start[i + 1]);
 }
 
+constexpr int kSquare = 4;  // pixels on a side
+
+// What the samples of up to kSquare rows of a chunk see.
+class RowsOfSamples {
+ public:
+  RowsOfSamples(const Frame& frame, const Chunk& chunk, const SampleHits& seen, int y0) : samples_(frame.places.count), y0_(y0) {
+    id_ = seen.primitive.data() + tile_row(frame.grid, chunk, y0);
+    for (int y = 0; y < std::min(kSquare, chunk.y1 - y0); ++y)
+      for (int s = 1; s < samples_; ++s) {
+        const uint32_t *first = id_ + y * kTileSize, *other = first + s * kSamplePlane;
+        for (int x = 0; x < kTileSize; ++x) differ_[y][x] |= first[x] ^ other[x];
+      }
+  }
+  bool differ(int x, int y) const { return differ_[y - y0_][x] != 0; }
+  uint32_t first(int x, int y) const { return id_[(y - y0_) * kTileSize + x]; }
+  void get(int x, int y, uint32_t id[kMaxSamples]) const {
+    for (int s = 0; s < samples_; ++s) id[s] = id_[s * kSamplePlane + (y - y0_) * kTileSize + x];
+  }
+
+ private:
+  const int samples_, y0_;
+  const uint32_t* id_;
+  uint32_t differ_[kSquare][kTileSize] = {};
+};
+
 // Fills level 0 and the list of fragments, slot by slot.
 class SlotMaker {
  public:
@@ -192,25 +217,24 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   level.resize(chunk.pixels() * samples, translucents);
   level.place.resize(static_cast<size_t>(level.slots));
   SlotMaker maker(job, w, level);
-  for (int y = chunk.y0; y < chunk.y1; ++y) {
-    const uint32_t* id[kMaxSamples];
-    uint32_t differ[kTileSize] = {};
-    for (int s = 0; s < samples; ++s) {
-      id[s] = seen.primitive.data() + s * kSamplePlane + tile_row(job.frame.grid, chunk, y);
-      for (int x = 0; x < chunk.columns; ++x) differ[x] |= id[s][x] ^ id[0][x];
-    }
-    for (int x = 0; x < chunk.columns; ++x) {
-      const size_t parent = static_cast<size_t>((y - chunk.y0) * chunk.columns + x), at = parent * static_cast<size_t>(samples);
-      const bool layers = translucents && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
-      const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
-      if (!one_each && !layers && differ[x] == 0) {
-        maker.add_whole(static_cast<uint32_t>(parent), pixel, id[0][x]);
-        continue;
-      }
-      uint32_t seen_by[kMaxSamples];
-      for (int s = 0; s < samples; ++s) seen_by[s] = id[s][x];
-      maker.add_groups(static_cast<uint32_t>(parent), pixel, seen_by, layers);
-    }
+  // Squares of pixels: neighbours in a vector are then neighbours in the picture, and their rays go through the same boxes.
+  for (int y0 = chunk.y0; y0 < chunk.y1; y0 += kSquare) {
+    const RowsOfSamples rows(job.frame, chunk, seen, y0);
+    for (int x0 = 0; x0 < chunk.columns; x0 += kSquare)
+      for (int y = y0; y < std::min(y0 + kSquare, chunk.y1); ++y)
+        for (int x = x0; x < std::min(x0 + kSquare, chunk.columns); ++x) {
+          const uint32_t parent = static_cast<uint32_t>((y - chunk.y0) * chunk.columns + x);
+          const size_t at = static_cast<size_t>(parent) * static_cast<size_t>(samples);
+          const bool layers = translucents && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
+          const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
+          uint32_t id[kMaxSamples];
+          if (!one_each && !layers && !rows.differ(x, y)) {
+            maker.add_whole(parent, pixel, rows.first(x, y));
+          } else {
+            rows.get(x, y, id);
+            maker.add_groups(parent, pixel, id, layers);
+          }
+        }
   }
   level.resize(maker.slots(), translucents);
   level.place.resize(static_cast<size_t>(level.slots));
