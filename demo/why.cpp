@@ -94,15 +94,17 @@ void print_surface(int indent, const SurfaceTrace& s, const SceneData& scene) {
   row(indent, "radiance", s.radiance);
 }
 
-void print_level(size_t k, const PixelTrace& trace, const SceneData& scene) {
-  const LevelTrace& level = trace.levels[k];
+void print_level(size_t k, const PixelTrace& trace, const SlotTrace& slot, const SceneData& scene) {
+  const LevelTrace& level = slot.levels[k];
+  // At the center of a pixel of which all samples see one surface, a smaller one may hide it.
+  const auto used = [&](uint32_t seen, bool asked) { return asked && seen == slot.primitive ? "  <- used" : ""; };
   if (k == 0) {
     std::printf("primary ray\n");
     row(2, "eye", trace.eye);
-    row(2, "direction (depth 1)", trace.direction);
-    text_row(2, "raster sees", primitive_text(trace.raster_primitive) + (trace.by_ray ? "" : "  <- used"));
-    row(2, "raster depth, near / z", trace.raster_depth);
-    text_row(2, "ray sees", primitive_text(trace.ray_primitive) + (trace.by_ray ? "  <- used" : ""));
+    row(2, "direction (depth 1)", slot.direction);
+    text_row(2, "raster sees", primitive_text(slot.raster_primitive) + used(slot.raster_primitive, !trace.by_ray));
+    row(2, "raster depth, near / z", slot.raster_depth);
+    text_row(2, "ray sees", primitive_text(slot.ray_primitive) + used(slot.ray_primitive, trace.by_ray));
   } else {
     std::printf("mirror ray, bounce %zu\n", k);
     row(2, "origin", level.origin);
@@ -126,6 +128,22 @@ void print_level(size_t k, const PixelTrace& trace, const SceneData& scene) {
   row(2, "they let through", level.transmittance);
 }
 
+// One surface of the pixel, from its primary ray to what comes back.
+void print_slot(const PixelTrace& trace, const SlotTrace& slot, const SceneData& scene) {
+  if (trace.samples > 1) {
+    std::printf("seen by %g of %d samples: %s\n", static_cast<double>(slot.weight) * trace.samples, trace.samples, primitive_text(slot.primitive).c_str());
+    const double at[2] = {slot.position.x, slot.position.y};
+    row(2, "shaded at", std::span<const double>(at));
+  }
+  for (size_t k = 0; k < slot.levels.size(); ++k) print_level(k, trace, slot, scene);
+  for (size_t k = slot.levels.size(); k-- > 1;) {
+    std::printf("bounce %zu comes back\n", k);
+    row(2, "its radiance", slot.levels[k].radiance);
+    row(2, "times", slot.levels[k].weight);
+    row(2, "radiance one level up", slot.levels[k - 1].radiance);
+  }
+}
+
 // Renders the picture and compares its pixel with the derivation, bit for bit.
 int verify(const Job& job, const PixelTrace& trace, int x, int y) {
   Renderer renderer;
@@ -136,7 +154,7 @@ int verify(const Job& job, const PixelTrace& trace, int x, int y) {
   const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.settings.width) + static_cast<size_t>(x);
   const uint8_t* rgba = picture.color.rgba.data() + 4 * pixel;
   const float* radiance = picture.radiance.data() + 3 * pixel;
-  const uint32_t primitive = trace.by_ray ? trace.ray_primitive : trace.raster_primitive;
+  const uint32_t primitive = trace.slots[0].primitive;
   const bool equal = std::memcmp(rgba, trace.rgba, 4) == 0 && std::memcmp(radiance, trace.radiance, sizeof trace.radiance) == 0 &&
                      picture.primitive[pixel] == primitive;
   std::printf("rendered picture\n");
@@ -172,13 +190,7 @@ int why(const WhyOptions& options) {
               hash_text(job.scene.hash()).c_str(), kNumericContract);
   for (const auto& [key, value] : settings_words(job.settings)) std::printf("%s=%s ", key.c_str(), value.c_str());
   std::printf("\n");
-  for (size_t k = 0; k < trace.levels.size(); ++k) print_level(k, trace, job.scene.data());
-  for (size_t k = trace.levels.size(); k-- > 1;) {
-    std::printf("bounce %zu comes back\n", k);
-    row(2, "its radiance", trace.levels[k].radiance);
-    row(2, "times", trace.levels[k].weight);
-    row(2, "radiance one level up", trace.levels[k - 1].radiance);
-  }
+  for (const SlotTrace& slot : trace.slots) print_slot(trace, slot, job.scene.data());
   std::printf("pixel\n");
   row(2, "radiance", trace.radiance);
   std::printf("  %-24s %d %d %d %d\n", "bytes", trace.rgba[0], trace.rgba[1], trace.rgba[2], trace.rgba[3]);

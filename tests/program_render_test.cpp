@@ -184,6 +184,17 @@ TEST_F(ProgramRender, WhyDerivesThePixelsOfThePicture) {
         EXPECT_EQ(0, ran.code) << pixel << " " << ran.error << ran.out;
         EXPECT_NE(std::string::npos, ran.out.find("equal to the derivation, bit for bit")) << ran.out;
       }
+  // The same with several samples: edges of the pyramid, of the glass and of the mirror among them.
+  int several = 0;
+  for (const char* visibility : {"raster", "ray"})
+    for (const char* mode : {"multisample", "supersample"})
+      for (const char* pixel : {"48,60", "48,20", "30,40", "60,36", "57,30", "55,34", "40,31", "33,44", "0,0", "95,63"}) {
+        const Ran ran = run({"why", scene_, pixel, "--camera", kSmallSceneCamera, "--size", "96x64", "--visibility", visibility, "--samples", "4", "--antialiasing", mode});
+        EXPECT_EQ(0, ran.code) << pixel << " " << ran.error << ran.out;
+        EXPECT_NE(std::string::npos, ran.out.find("equal to the derivation, bit for bit")) << ran.out;
+        several += ran.out.find("seen by 1 of 4") != std::string::npos;
+      }
+  EXPECT_GT(several, 20);
   const Ran outside = run({"why", scene_, "96,0", "--size", "96x64"});
   EXPECT_EQ(2, outside.code);
   EXPECT_NE(std::string::npos, outside.error.find("96x64"));

@@ -12,7 +12,10 @@
 namespace spanray {
 namespace {
 
-size_t tile_row(const TileGrid& grid, const Chunk& chunk, int y) { return static_cast<size_t>((y - grid.y0(chunk.tile)) * kTileSize); }
+// Where row y of a chunk begins in a plane of SampleHits::primitive.
+size_t tile_row(const TileGrid& grid, const Chunk& chunk, int y) {
+  return static_cast<size_t>((y - grid.y0(chunk.tile)) * kTileSize + chunk.x0 - grid.x0(chunk.tile));
+}
 
 // The rasterizer's depth (raster/depth_plane.h) of a primitive at a picture position.
 float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
@@ -67,8 +70,9 @@ void index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
     for (int s = 0; s < samples; ++s) {
       const FragmentList& list = seen.fragments[s];
       for (size_t i = 0; i < list.pixel.size(); ++i) {
-        const int x = static_cast<int>(list.pixel[i] & 0xffff), y = static_cast<int>(list.pixel[i] >> 16);
-        if (y >= chunk.y0 && y < chunk.y1) visit(static_cast<size_t>(((y - chunk.y0) * chunk.columns + x - chunk.x0) * samples + s), list.primitive[i]);
+        const int x = static_cast<int>(list.pixel[i] & 0xffff) - chunk.x0, y = static_cast<int>(list.pixel[i] >> 16);
+        if (x >= 0 && x < chunk.columns && y >= chunk.y0 && y < chunk.y1)
+          visit(static_cast<size_t>(((y - chunk.y0) * chunk.columns + x) * samples + s), list.primitive[i]);
       }
     }
   };
@@ -91,7 +95,7 @@ class RowsOfSamples {
     for (int y = 0; y < std::min(kSquare, chunk.y1 - y0); ++y)
       for (int s = 1; s < samples_; ++s) {
         const uint32_t *first = id_ + y * kTileSize, *other = first + s * kSamplePlane;
-        for (int x = 0; x < kTileSize; ++x) differ_[y][x] |= first[x] ^ other[x];
+        for (int x = 0; x < chunk.columns; ++x) differ_[y][x] |= first[x] ^ other[x];
       }
   }
   bool differ(int x, int y) const { return differ_[y - y0_][x] != 0; }

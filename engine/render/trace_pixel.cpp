@@ -10,6 +10,7 @@
 #include "ray/bvh.h"
 #include "render/check_request.h"
 #include "render/make_frame.h"
+#include "render/tile.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -49,13 +50,25 @@ class Tracer {
   PixelTrace run();
 
  private:
-  uint32_t raster_hit(FragmentList& fragments, float& depth);
-  uint32_t ray_hit();
-  void make_primary_ray(RayBatch& rays) const;
-  void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive) const;
+  // What one surface of the pixel starts from. layers: translucent, if they are known already.
+  struct Slot {
+    int place = 0;
+    float weight = 1;
+    uint32_t primitive = kNoPrimitive;
+    FragmentList layers;
+    bool layers_known = false;
+  };
+  std::vector<Slot> find_slots();
+  SlotTrace trace_slot(const Slot& slot);
+  uint32_t raster_hit(int place, FragmentList& fragments, float& depth);
+  uint32_t ray_hit(int place) const;
+  uint32_t pixel() const { return pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_)); }
+  int tile() const { return y_ / kTileSize * frame_.grid.columns + x_ / kTileSize; }
+  void make_primary_ray(int place, RayBatch& rays) const;
+  void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, int place) const;
   SurfaceTrace shade(const HitBatch& hits, SurfaceBatch& surfaces, bool primary);
   LightTrace light(const HitBatch& hits, const SurfaceBatch& surfaces, int index, LitVertexCache* cache, Radiance& sum);
-  void add_layers(LevelTrace& level, RayBatch& rays, const FragmentList& primary_layers, bool primary);
+  void add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bool primary);
   bool bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch& next, LevelTrace& level) const;
 
   int x_, y_;
@@ -63,6 +76,7 @@ class Tracer {
   Plan plan_;
   Frame frame_;
   Bvh opaque_, translucent_;
+  TileBins bins_;
   std::unique_ptr<LitVertexCache> lit_vertices_;
 };
 
@@ -72,25 +86,23 @@ Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& setting
   // Both engines are asked, whatever the plan says; where the plan has no use for a tree, its answer is only shown.
   opaque_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, 0, parallel_);
   translucent_ = build_bvh(scene.data(), frame_.material_flags, kMaterialTranslucent, kMaterialTranslucent, parallel_);
+  ScreenVertices vertices;
+  FrameCounts counts;
+  transform_vertices(frame_, vertices);
+  clip_triangles(frame_, vertices, bins_, counts);
+  bin_triangles(frame_, bins_);
   if (frame_.plan.lit_vertices)
     lit_vertices_ = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
 }
 
-uint32_t Tracer::raster_hit(FragmentList& fragments, float& depth) {
-  ScreenVertices vertices;
-  TileBins bins;
-  FrameCounts counts;
-  transform_vertices(frame_, vertices);
-  clip_triangles(frame_, vertices, bins, counts);
-  bin_triangles(frame_, bins);
+uint32_t Tracer::raster_hit(int place, FragmentList& fragments, float& depth) {
   const auto visible = std::make_unique<TileHits>();
-  const int tile = y_ / kTileSize * frame_.grid.columns + x_ / kTileSize;
   parallel_.for_each(1, [&](size_t, int) {
-    rasterize_tile(frame_, bins, tile, *visible);
+    rasterize_tile(frame_, bins_, tile(), *visible, place);
     FragmentList all;
-    if (frame_.plan.translucents) rasterize_translucent(frame_, bins, tile, *visible, all);
+    if (frame_.plan.translucents) rasterize_translucent(frame_, bins_, tile(), *visible, all, place);
     for (size_t i = 0; i < all.pixel.size(); ++i) {
-      if (all.pixel[i] != pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_))) continue;
+      if (all.pixel[i] != pixel()) continue;
       fragments.pixel.push_back(all.pixel[i]), fragments.ray.push_back(0), fragments.primitive.push_back(all.primitive[i]);
     }
   });
@@ -99,32 +111,28 @@ uint32_t Tracer::raster_hit(FragmentList& fragments, float& depth) {
   return visible->primitive[i];
 }
 
-void Tracer::make_primary_ray(RayBatch& rays) const {
-  const PrimaryRays& p = frame_.primary;
-  const glm::dvec3 d = p.corner + p.step_x * (x_ + 0.5) + p.step_y * (y_ + 0.5);
-  const glm::dvec3 o = p.eye + d * p.near_plane;
-  rays.resize(1, false);
-  for (int k = 0; k < 3; ++k) rays.origin[k][0] = static_cast<float>(o[k]), rays.direction[k][0] = static_cast<float>(d[k]);
-  rays.t_max[0] = kInfinity;
-  rays.pixel[0] = pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+void Tracer::make_primary_ray(int place, RayBatch& rays) const {
+  const uint32_t name = pixel();
+  make_primary_batch(frame_, &name, 1, place, rays);
 }
 
-uint32_t Tracer::ray_hit() {
+uint32_t Tracer::ray_hit(int place) const {
   RayBatch rays;
-  make_primary_ray(rays);
+  make_primary_ray(place, rays);
   AlignedBuffer<uint32_t> primitive;
   primitive.assign(kLanePadding, kNoPrimitive);
   trace_closest(frame_, opaque_, rays, primitive.data());
   return primitive[0];
 }
 
-void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive) const {
+void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, int place) const {
   hits.resize(primitive == kNoPrimitive ? 0 : 1, true);
   hits.rays = rays;
   if (hits.count == 0) return;
-  hits.pixel[0] = pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+  hits.pixel[0] = pixel();
   hits.ray[0] = 0;
   hits.primitive[0] = primitive;
+  if (rays == nullptr && frame_.places.count > 1) hits.place.assign(1, static_cast<uint32_t>(place));
 }
 
 // The light alone, its shadow ray, its bit, and the sum so far with it.
@@ -193,20 +201,20 @@ SurfaceTrace Tracer::shade(const HitBatch& hits, SurfaceBatch& s, bool primary) 
   return trace;
 }
 
-void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const FragmentList& primary_layers, bool primary) {
+void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bool primary) {
   const float opaque_t = level.surface.valid ? level.surface.t : kInfinity;
   FragmentList traced;
-  const bool rasterized = primary && frame_.plan.raster;
-  if (!rasterized) {
-    const float start = primary ? static_cast<float>(frame_.primary.near_plane) : 0.0f;
-    rays.t_max[0] = (opaque_t - start) * 1.00001f;  // as in render/tile.cpp
+  const bool known = primary && start.layers_known;
+  if (!known) {
+    const float near_t = primary ? static_cast<float>(frame_.primary.near_plane) : 0.0f;
+    rays.t_max[0] = (opaque_t - near_t) * 1.00001f;  // as in render/tile.cpp
     trace_all(frame_, translucent_, rays, traced);
   }
-  const FragmentList& list = rasterized ? primary_layers : traced;
+  const FragmentList& list = known ? start.layers : traced;
   for (size_t i = 0; i < list.primitive.size(); ++i) {
     HitBatch hits;
     SurfaceBatch surfaces;
-    make_hits(hits, primary ? nullptr : &rays, list.primitive[i]);
+    make_hits(hits, primary ? nullptr : &rays, list.primitive[i], start.place);
     level.layers.push_back(shade(hits, surfaces, primary));
   }
   // Shown in the order of blending; blended by the renderer's own function.
@@ -242,31 +250,65 @@ bool Tracer::bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch
   return true;
 }
 
-PixelTrace Tracer::run() {
-  PixelTrace trace;
+std::vector<Tracer::Slot> Tracer::find_slots() {
+  const bool by_ray = frame_.settings.visibility == Visibility::kRay;
+  std::vector<Slot> slots;
+  if (frame_.places.count == 1) {
+    Slot& slot = slots.emplace_back();
+    float depth;
+    const uint32_t rasterized = raster_hit(0, slot.layers, depth);
+    slot.primitive = by_ray ? ray_hit(0) : rasterized;
+    slot.layers_known = !by_ray;
+    return slots;
+  }
+  Framebuffer out;
+  const FrameRequest request;
+  const FrameJob job{frame_, by_ray ? nullptr : &bins_, &opaque_, &translucent_, nullptr, out, request};
+  TileWorker worker;
+  Level level;
+  parallel_.for_each(1, [&](size_t, int) {
+    rasterize_samples(job, tile(), worker);
+    level.pixel.assign(1, pixel());
+    find_sample_slots(job, Chunk{tile(), x_, 1, y_, y_ + 1}, worker, level);
+  });
+  for (size_t i = 0; i < static_cast<size_t>(level.slots); ++i) {
+    Slot& slot = slots.emplace_back();
+    slot.place = static_cast<int>(level.place[i]);
+    slot.weight = level.weight[0][i];
+    slot.primitive = level.primitive[i];
+    slot.layers_known = true;
+    for (size_t k = 0; k < worker.fragment_slot.size(); ++k)
+      if (worker.fragment_slot[k] == static_cast<int32_t>(i)) slot.layers.primitive.push_back(worker.chunk_fragments.primitive[k]);
+  }
+  return slots;
+}
+
+SlotTrace Tracer::trace_slot(const Slot& slot) {
+  SlotTrace trace;
   const PrimaryRays& p = frame_.primary;
-  trace.eye = p.eye;
-  trace.direction = p.corner + p.step_x * (x_ + 0.5) + p.step_y * (y_ + 0.5);
-  trace.by_ray = frame_.settings.visibility == Visibility::kRay;
-  FragmentList layers;
-  trace.raster_primitive = raster_hit(layers, trace.raster_depth);
-  trace.ray_primitive = ray_hit();
+  trace.weight = slot.weight;
+  trace.position = {x_ + frame_.places.x[slot.place], y_ + frame_.places.y[slot.place]};
+  trace.direction = p.corner + p.step_x * trace.position.x + p.step_y * trace.position.y;
+  FragmentList unused;
+  trace.raster_primitive = raster_hit(slot.place, unused, trace.raster_depth);
+  trace.ray_primitive = ray_hit(slot.place);
+  trace.primitive = slot.primitive;
 
   std::vector<std::unique_ptr<RayBatch>> rays;
   rays.push_back(std::make_unique<RayBatch>());
-  make_primary_ray(*rays[0]);
-  uint32_t primitive = trace.by_ray ? trace.ray_primitive : trace.raster_primitive;
+  make_primary_ray(slot.place, *rays[0]);
+  uint32_t primitive = slot.primitive;
   for (size_t k = 0;; ++k) {
     const bool primary = k == 0;
     if (primary) trace.levels.emplace_back();
     HitBatch hits;
     SurfaceBatch surfaces;
-    make_hits(hits, primary ? nullptr : rays[k].get(), primitive);
+    make_hits(hits, primary ? nullptr : rays[k].get(), primitive, slot.place);
     LevelTrace& level = trace.levels[k];
     level.surface = shade(hits, surfaces, primary);
     for (int c = 0; c < 3; ++c)
       level.radiance[c] = hits.count > 0 ? level.surface.radiance[c] : frame_.scene->background[c];
-    if (frame_.plan.translucents) add_layers(level, *rays[k], layers, primary);
+    if (frame_.plan.translucents) add_layers(level, *rays[k], slot, primary);
     std::copy_n(level.radiance, 3, level.layers_over);
     if (!frame_.plan.bounces || k == static_cast<size_t>(frame_.settings.max_bounces)) break;
     rays.push_back(std::make_unique<RayBatch>());
@@ -281,8 +323,22 @@ PixelTrace Tracer::run() {
   }
   for (size_t k = trace.levels.size() - 1; k > 0; --k)
     for (int c = 0; c < 3; ++c) trace.levels[k - 1].radiance[c] += trace.levels[k].weight[c] * trace.levels[k].radiance[c];
+  return trace;
+}
+
+PixelTrace Tracer::run() {
+  PixelTrace trace;
+  trace.eye = frame_.primary.eye;
+  trace.by_ray = frame_.settings.visibility == Visibility::kRay;
+  trace.samples = frame_.places.count;
+  for (const Slot& slot : find_slots()) trace.slots.push_back(trace_slot(slot));
   Radiance out;
-  for (int c = 0; c < 3; ++c) trace.radiance[c] = out.channel[c][0] = trace.levels[0].radiance[c];
+  for (int c = 0; c < 3; ++c) {
+    float sum = trace.samples == 1 ? trace.slots[0].levels[0].radiance[c] : 0.0f;
+    if (trace.samples > 1)
+      for (const SlotTrace& slot : trace.slots) sum += slot.weight * slot.levels[0].radiance[c];
+    trace.radiance[c] = out.channel[c][0] = sum;
+  }
   const float* radiance[3] = {out.pointer[0], out.pointer[1], out.pointer[2]};
   encode_row(frame_.isa, radiance, 1, trace.rgba);
   return trace;
@@ -292,8 +348,6 @@ PixelTrace Tracer::run() {
 
 Result<PixelTrace> trace_pixel(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y) {
   if (Result<void> checked = check_request(scene, camera, settings); !checked) return checked.error();
-  if (settings.samples > 1)
-    return Error{"the derivation of a pixel follows one ray; give --samples 1 (this asks for " + std::to_string(settings.samples) + ")"};
   if (x < 0 || y < 0 || x >= settings.width || y >= settings.height)
     return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the picture of " +
                  std::to_string(settings.width) + "x" + std::to_string(settings.height)};

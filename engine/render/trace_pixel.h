@@ -44,12 +44,22 @@ struct LevelTrace {
   float radiance[3] = {};                   // with everything that came back from the levels below
 };
 
-struct PixelTrace {
-  glm::dvec3 eye{0}, direction{0};          // the exact primary ray
-  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;  // what each engine sees
+// What the pixel sees: one of these, or with several samples a pixel one for each slot of render/tile_samples.h.
+struct SlotTrace {
+  float weight = 1;                         // of the pixel's samples
+  glm::dvec2 position{0};                   // in the picture, where it is shaded
+  glm::dvec3 direction{0};                  // the exact primary ray through it
+  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;  // what each engine sees there
+  uint32_t primitive = 0xffffffffu;         // the one that is shaded
   float raster_depth = 0;                   // of the rasterizer's tile
-  bool by_ray = false;                      // settings.visibility
   std::vector<LevelTrace> levels;
+};
+
+struct PixelTrace {
+  glm::dvec3 eye{0};
+  bool by_ray = false;                      // settings.visibility
+  int samples = 1;
+  std::vector<SlotTrace> slots;             // first what sample 0 sees
   float radiance[3] = {};
   uint8_t rgba[4] = {};
 };
