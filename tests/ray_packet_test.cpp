@@ -1,6 +1,8 @@
 // Rays that go down the tree together answer as if each went alone.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/ray_answers.h"
 
 namespace spanray {
@@ -49,6 +51,42 @@ TEST(RayPacket, CoherentBatchesEqualBruteForceInAnyOrder) {
       }
     }
   }
+}
+
+// Where a hit is certain without the exact test and where it is not lies at the edges of triangles, at the origin and at the end of the ray:
+// parallel and slightly turned rays through corners, edges and inner points of a grid of triangles and of its copies a little behind,
+// that end at the hit exactly, one step of a float before or after it, or start at it.
+TEST(RayPacket, EndsEdgesAndOriginsAreExactForEveryLane) {
+  std::vector<SoupTriangle> soup;
+  for (int layer = 0; layer < 3; ++layer)
+    for (int y = -4; y < 4; ++y)
+      for (int x = -4; x < 4; ++x) {
+        const glm::dvec3 p(x, y, 2 + layer * 0x1p-20), dx(1, 0, 0), dy(0, 1, 0);
+        soup.push_back(soup_triangle(p, p + dx, p + dx + dy));
+        soup.push_back(soup_triangle(p, p + dx + dy, p + dy));
+      }
+  auto t = frame_of(soup);
+  const Bvh bvh = build_all(*t);
+  constexpr int kRays = 4800;
+  RayBatch rays = make_rays(kRays);
+  TestRandom random(29);
+  for (int i = 0; i < kRays; ++i) {
+    const int block = i / 16, kind = block % 5, axis_kind = block / 5 % 3;
+    const glm::dvec3 at(block % 7 - 3 + (i % 4) * 0.25, block % 6 - 3 + (i / 4 % 4) * 0.25, 2 + i % 3 * 0x1p-20);
+    glm::dvec3 d(0, 0, 1);
+    if (axis_kind == 1) d.x = (i % 4 - 1) * 0x1p-22, d.y = -0.0;
+    if (axis_kind == 2) d = glm::dvec3(0.25, -0.125, 1);
+    const float whole = kind == 4 ? kInfinity : 1.0f;
+    float t_max = whole;
+    if (kind == 1) t_max = std::nextafter(1.0f, 0.0f);
+    if (kind == 2) t_max = std::nextafter(1.0f, 2.0f);
+    if (kind == 3) t_max = static_cast<float>(random.uniform(0.5, 1.5));
+    set_ray(rays, i, kind == 4 ? at : at - d, d, t_max);
+  }
+  const Answers want = brute_force(*t, rays);
+  EXPECT_GT(std::count(want.any.begin(), want.any.end(), true), kRays / 4);
+  EXPECT_GT(std::count(want.any.begin(), want.any.end(), false), kRays / 10);
+  for (const Isa isa : supported_isas()) expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
 }
 
 }  // namespace

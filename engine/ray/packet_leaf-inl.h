@@ -54,7 +54,8 @@ template <bool kSure> HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, con
   LaneHits hits{~to_bits(miss) & ((1u << kLanes) - 1), 0};
   if constexpr (kSure) {
     if (hits.maybe != 0)
-      hits.sure = hits.maybe & to_bits(((least > error) | (greatest < -error)) & (first > F32::zero()) & (last * f32(1 + 0x1p-20f) < p.limit));
+      hits.sure = hits.maybe & to_bits(((least > error) | (greatest < -error)) & (first > F32::zero()) &
+                                       (last * f32(1 + 0x1p-20f) < p.limit));
   }
   return hits;
 }

@@ -102,7 +102,8 @@ HWY_INLINE void prepare_axis(RayPacket& p, int k, F32 direction, F64 d) {
   constexpr double kWiden = 4.0 / (1 << 24);
   const F64 inverse = f64(1.0) / d;
   const Mask zero = direction == F32::zero(), tiny = abs_(d) < f64(0x1p-126);
-  const F32 infinite = copysign_(f32(std::numeric_limits<float>::infinity()), direction), nan = f32(std::numeric_limits<float>::quiet_NaN());
+  const F32 infinite = copysign_(f32(std::numeric_limits<float>::infinity()), direction);
+  const F32 nan = f32(std::numeric_limits<float>::quiet_NaN());
   p.inv_near[k] = select(zero, infinite, select(tiny, nan, to_f32(inverse * f64(1.0 - kWiden))));
   p.inv_far[k] = select(zero, infinite, select(tiny, nan, to_f32(inverse * f64(1.0 + kWiden))));
   p.negative[k] = bits_of(direction) < I32::zero();

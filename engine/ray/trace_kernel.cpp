@@ -24,10 +24,12 @@ HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 
-// Whole packets go down the tree together if their rays point into one octant, or nearly.
+// A packet goes down the tree together if its rays point into one octant or two neighbouring ones.
 constexpr int kMixedAxes = 1;
 
-template <class Packet> HWY_INLINE bool coherent(const Packet& p) { return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays; }
+HWY_INLINE bool coherent(const RayPacket& p) {
+  return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays;
+}
 
 void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
   std::fill_n(out, rays.count, kNoPrimitive);

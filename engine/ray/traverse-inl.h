@@ -109,7 +109,8 @@ struct Stack {
 
   // All children that the ray meets, in no order and without distances.
   HWY_INLINE void push_any(const BvhNode& node, const LaneRay& ray, float limit) {
-    for (int s = 0; s < kBvhWidth; s += kLanes8) top += store_chosen(node.child + s, box_children(node, s, ray, limit).meets, child + top);
+    for (int s = 0; s < kBvhWidth; s += kLanes8)
+      top += store_chosen(node.child + s, box_children(node, s, ray, limit).meets, child + top);
   }
 
   // The same so that the nearest is popped first.
@@ -132,8 +133,9 @@ struct Stack {
 };
 
 template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& block, int lane, const LaneRay& ray, Visitor& visitor) {
+  const TriangleView triangle{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth};
   double t;
-  return hit_triangle(ray.exact, TriangleView{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth}, t) && visitor.hit(t, block.primitive[lane]);
+  return hit_triangle(ray.exact, triangle, t) && visitor.hit(t, block.primitive[lane]);
 }
 
 // Tests the triangles of a leaf; true if the visitor wants to end.

@@ -38,8 +38,6 @@ void HitOrder::make_curve(int count, int columns) {
   if (columns == curve_columns_ && count == static_cast<int>(curve_.size())) return;
   curve_columns_ = columns;
   curve_.clear();
-  if (columns == 0)
-    for (int i = 0; i < count; ++i) curve_.push_back(static_cast<uint32_t>(i));
   for (uint32_t code = 0; static_cast<int>(curve_.size()) < count; ++code) {
     const int x = even_bits(code), y = even_bits(code >> 1), slot = y * columns + x;
     if (x < columns && slot < count) curve_.push_back(static_cast<uint32_t>(slot));
@@ -47,8 +45,9 @@ void HitOrder::make_curve(int count, int columns) {
 }
 
 void HitOrder::group(const uint32_t* primitive, int count, int columns, AlignedBuffer<uint32_t>& slot_of_hit) {
-  make_curve(count, columns);
-  const uint32_t* const slot = curve_.data();
+  while (static_cast<int>(in_order_.size()) < count) in_order_.push_back(static_cast<uint32_t>(in_order_.size()));
+  if (columns != 0) make_curve(count, columns);
+  const uint32_t* const slot = columns != 0 ? curve_.data() : in_order_.data();
   runs_.clear();
   start_.clear();
   make_room(static_cast<size_t>(count));

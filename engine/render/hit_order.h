@@ -17,7 +17,8 @@ class HitOrder {
   // Contract: only the order of shading; an entry's surface and light do not depend on its place (shade/resolve_kernel.cpp).
   void group(const uint32_t* primitive, int count, int columns, AlignedBuffer<uint32_t>& slot_of_hit);
   size_t memory_bytes() const {
-    return curve_.capacity() * sizeof(uint32_t) + runs_.capacity() * sizeof(Run) + start_.capacity() * sizeof(uint32_t) + table_.capacity() * sizeof(Entry);
+    return (curve_.capacity() + in_order_.capacity() + start_.capacity()) * sizeof(uint32_t) + runs_.capacity() * sizeof(Run) +
+           table_.capacity() * sizeof(Entry);
   }
 
  private:
@@ -28,7 +29,8 @@ class HitOrder {
   void make_curve(int count, int columns);
 
   std::vector<uint32_t> curve_;   // slots in order, for curve_columns_
-  int curve_columns_ = -1;
+  int curve_columns_ = 0;
+  std::vector<uint32_t> in_order_;  // 0, 1, 2 ...
   std::vector<Run> runs_;         // neighbours on the curve of one primitive
   std::vector<uint32_t> start_;   // of each group: its number of slots, then its place in the order
   std::vector<Entry> table_;      // by hash of the primitive; at most half full
