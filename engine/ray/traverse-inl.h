@@ -53,8 +53,8 @@ HWY_INLINE bool prepare_lane_ray(const Bvh::Data& data, const RayBatch& rays, in
 }
 
 // Which of kLanes8 children from `first` on the ray meets in [0, limit], and where it enters them: the arithmetic of slab().
-struct BoxLanes { Mask8 meets; F8 near; };
-HWY_INLINE BoxLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
+struct ChildLanes { Mask8 meets; F8 near; };
+HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
   F8 near = f8(0.0f), far = f8(limit);
   for (int k = 0; k < 3; ++k) {
     const F8 o = f8(ray.exact.origin[k]);
@@ -118,7 +118,7 @@ struct Stack {
     alignas(32) float entry[kBvhWidth];
     uint32_t bits = 0;
     for (int s = 0; s < kBvhWidth; s += kLanes8) {
-      const BoxLanes box = box_children(node, s, ray, limit);
+      const ChildLanes box = box_children(node, s, ray, limit);
       box.near.store(entry + s);
       bits |= to_bits(box.meets) << s;
     }
