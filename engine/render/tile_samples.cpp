@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "raster/depth_plane.h"
@@ -63,9 +64,8 @@ void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, const
   }
 }
 
-// Counting sort of the chunk's fragments by pixel and sample.
-void index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
-  seen.start.assign(static_cast<size_t>(chunk.pixels() * samples) + 2, 0);
+// Counting sort of the chunk's fragments by pixel and sample. False, and nothing else, if there are none.
+bool index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
   const auto for_each = [&](const auto& visit) {
     for (int s = 0; s < samples; ++s) {
       const FragmentList& list = seen.fragments[s];
@@ -76,13 +76,19 @@ void index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
       }
     }
   };
+  bool any = false;
+  for_each([&](size_t, uint32_t) { any = true; });
+  if (!any) return false;
+  seen.start.assign(static_cast<size_t>(chunk.pixels() * samples) + 2, 0);
   for_each([&](size_t i, uint32_t) { ++seen.start[i + 2]; });
   for (size_t i = 2; i < seen.start.size(); ++i) seen.start[i] += seen.start[i - 1];
   seen.fragment.resize(seen.start.back());
   for_each([&](size_t i, uint32_t primitive) { seen.fragment[seen.start[i + 1]++] = primitive; });
   seen.start.pop_back();
   // Rays find them in no order.
-  for (size_t i = 0; i + 1 < seen.start.size(); ++i) std::sort(seen.fragment.begin() + seen.start[i], seen.fragment.begin() + seen.start[i + 1]);
+  for (size_t i = 0; i + 1 < seen.start.size(); ++i)
+    if (seen.start[i + 1] - seen.start[i] > 1) std::sort(seen.fragment.begin() + seen.start[i], seen.fragment.begin() + seen.start[i + 1]);
+  return true;
 }
 
 constexpr int kSquare = 4;  // pixels on a side
@@ -100,8 +106,9 @@ class RowsOfSamples {
   }
   bool differ(int x, int y) const { return differ_[y - y0_][x] != 0; }
   uint32_t first(int x, int y) const { return id_[(y - y0_) * kTileSize + x]; }
-  void get(int x, int y, uint32_t id[kMaxSamples]) const {
-    for (int s = 0; s < samples_; ++s) id[s] = id_[s * kSamplePlane + (y - y0_) * kTileSize + x];
+  // In an order of samples.
+  void get(int x, int y, const int* order, uint32_t id[kMaxSamples]) const {
+    for (int r = 0; r < samples_; ++r) id[r] = id_[order[r] * kSamplePlane + (y - y0_) * kTileSize + x];
   }
 
  private:
@@ -113,46 +120,51 @@ class RowsOfSamples {
 // Fills level 0 and the list of fragments, slot by slot.
 class SlotMaker {
  public:
+  // level: with room for a slot a sample.
   SlotMaker(const FrameJob& job, TileWorker& worker, Level& level)
-      : places_(job.frame.places), one_each_(job.frame.settings.antialiasing == Antialiasing::kSupersample), worker_(worker),
-        level_(level) {
-    for (int s = 0; s < places_.count; ++s) {
-      const int x = places_.offset_x_24_8[places_.first() + s], y = places_.offset_y_24_8[places_.first() + s];
-      distance_[s] = x * x + y * y;
-    }
+      : samples_(job.frame.places.count), one_each_(job.frame.settings.antialiasing == Antialiasing::kSupersample), worker_(worker),
+        pixel_(level.pixel.data()), primitive_(level.primitive.data()), place_(level.place.data()), parent_(level.parent.data()) {
+    for (int c = 0; c < 3; ++c) weight_[c] = level.weight[c].data();
+    const SamplePlaces& places = job.frame.places;
+    const auto distance = [&](int s) {
+      const int x = places.offset_x_24_8[places.first() + s], y = places.offset_y_24_8[places.first() + s];
+      return x * x + y * y;
+    };
+    std::iota(order_, order_ + samples_, 0);
+    std::stable_sort(order_, order_ + samples_, [&](int a, int b) { return distance(a) < distance(b); });
   }
   int slots() const { return slots_; }
+  const int* nearest_first() const { return order_; }
 
   // All samples see the same, and no layers.
   void add_whole(uint32_t parent, uint32_t pixel, uint32_t primitive) { add(parent, pixel, primitive, 0, 1.0f); }
 
-  // id: what each sample sees. layers: whether some see translucent ones.
+  // id: what the samples see, nearest_first. layers: whether some see translucent ones.
   void add_groups(uint32_t parent, uint32_t pixel, const uint32_t* id, bool layers) {
-    Group group[kMaxSamples];
-    int groups = 0;
-    for (int s = 0; s < places_.count; ++s) {
-      int g = one_each_ ? groups : 0;
-      while (g < groups && !(id[s] == group[g].primitive && (!layers || same_fragments(parent, s, group[g].first)))) ++g;
-      if (g == groups) group[groups++] = {id[s], s, s, 0};
-      ++group[g].count;
-      if (distance_[s] < distance_[group[g].nearest]) group[g].nearest = s;
-    }
-    for (int g = 0; g < groups; ++g) {
-      const int place = group[g].count == places_.count ? 0 : places_.first() + group[g].nearest;
-      if (layers) add_fragments(pixel, fragments(parent, group[g].first));
-      add(parent, pixel, group[g].primitive, place, static_cast<float>(group[g].count) / static_cast<float>(places_.count));
+    for (uint32_t rest = (1u << samples_) - 1; rest != 0;) {
+      const int nearest = __builtin_ctz(rest);
+      uint32_t same = 0;
+      for (int r = 0; r < samples_; ++r) same |= static_cast<uint32_t>(id[r] == id[nearest]) << r;
+      if (layers) same &= same_layers(parent, nearest);
+      same = one_each_ ? 1u << nearest : same & rest;
+      rest &= ~same;
+      const int count = __builtin_popcount(same), place = count == samples_ ? 0 : 1 + order_[nearest];
+      if (layers) add_fragments(pixel, fragments(parent, nearest));
+      add(parent, pixel, id[nearest], place, static_cast<float>(count) / static_cast<float>(samples_));
     }
   }
 
  private:
-  struct Group { uint32_t primitive; int first, nearest, count; };  // samples that see the same
-
-  std::span<const uint32_t> fragments(uint32_t parent, int sample) const {
+  std::span<const uint32_t> fragments(uint32_t parent, int rank) const {
     const SampleHits& seen = *worker_.samples;
-    const size_t i = parent * static_cast<size_t>(places_.count) + static_cast<size_t>(sample);
+    const size_t i = parent * static_cast<size_t>(samples_) + static_cast<size_t>(order_[rank]);
     return {seen.fragment.data() + seen.start[i], seen.start[i + 1] - seen.start[i]};
   }
-  bool same_fragments(uint32_t parent, int a, int b) const { return std::ranges::equal(fragments(parent, a), fragments(parent, b)); }
+  uint32_t same_layers(uint32_t parent, int rank) const {
+    uint32_t same = 0;
+    for (int r = 0; r < samples_; ++r) same |= static_cast<uint32_t>(std::ranges::equal(fragments(parent, r), fragments(parent, rank))) << r;
+    return same;
+  }
   void add_fragments(uint32_t pixel, std::span<const uint32_t> primitives) {
     FragmentList& list = worker_.chunk_fragments;
     for (const uint32_t primitive : primitives) {
@@ -161,17 +173,17 @@ class SlotMaker {
     }
   }
   void add(uint32_t parent, uint32_t pixel, uint32_t primitive, int place, float weight) {
-    const size_t i = static_cast<size_t>(slots_++);
-    level_.pixel[i] = pixel, level_.primitive[i] = primitive, level_.place[i] = static_cast<uint32_t>(place);
-    level_.parent[i] = parent;
-    for (int c = 0; c < 3; ++c) level_.weight[c][i] = weight;
+    const int i = slots_++;
+    pixel_[i] = pixel, primitive_[i] = primitive, place_[i] = static_cast<uint32_t>(place), parent_[i] = parent;
+    for (float* w : weight_) w[i] = weight;
   }
 
-  const SamplePlaces& places_;
+  const int samples_;
   const bool one_each_;
   TileWorker& worker_;
-  Level& level_;
-  int distance_[kMaxSamples];  // of each sample from the center, squared
+  uint32_t *const pixel_, *const primitive_, *const place_, *const parent_;  // of level 0
+  float* weight_[3];
+  int order_[kMaxSamples];  // samples by distance from the center
   int slots_ = 0;
 };
 
@@ -217,7 +229,7 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   if (job.bins == nullptr) trace_samples(job, chunk, w, level);
   const StageTimer timer(w, TileStage::kRaster);
   w.chunk_fragments.clear(), w.fragment_slot.clear();
-  if (translucents) index_fragments(chunk, samples, seen);
+  const bool fragments = translucents && index_fragments(chunk, samples, seen);
   level.resize(chunk.pixels() * samples, translucents);
   level.place.resize(static_cast<size_t>(level.slots));
   SlotMaker maker(job, w, level);
@@ -229,13 +241,13 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
         for (int x = x0; x < std::min(x0 + kSquare, chunk.columns); ++x) {
           const uint32_t parent = static_cast<uint32_t>((y - chunk.y0) * chunk.columns + x);
           const size_t at = static_cast<size_t>(parent) * static_cast<size_t>(samples);
-          const bool layers = translucents && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
+          const bool layers = fragments && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
           const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
           uint32_t id[kMaxSamples];
           if (!one_each && !layers && !rows.differ(x, y)) {
             maker.add_whole(parent, pixel, rows.first(x, y));
           } else {
-            rows.get(x, y, id);
+            rows.get(x, y, maker.nearest_first(), id);
             maker.add_groups(parent, pixel, id, layers);
           }
         }
