@@ -225,7 +225,7 @@ TEST(RasterClip, R12_DepthZeroDenormalTinyNegative) {
       const auto behind = make_test_frame(make_test_scene({soup_triangle(at(-std::fabs(w)), at(-1), at(-2))}), camera_at({0, 0, 0}, {0, 0, -1}), test_settings(64, 48));
       const FrontEnd front = run_front_end(behind->frame);
       EXPECT_EQ(front.counts.triangles_drawn, 0u);
-      EXPECT_EQ(front.counts.triangles_culled, 1u);
+      EXPECT_EQ(front.counts.triangles_culled(), 1u);
     }
 }
 
@@ -250,7 +250,7 @@ TEST(RasterClip, R14_BadVerticesLoseOnlyTheirTriangles) {
       for (uint32_t id = 0; id < hurt->scene.triangles.size(); ++id) lost += is_lost(id);
       EXPECT_GE(lost, 4u);
       EXPECT_EQ(front.counts.triangles_invalid, lost);
-      EXPECT_EQ(front.counts.triangles_in, front.counts.triangles_invalid + front.counts.triangles_culled + front.counts.triangles_drawn);
+      EXPECT_EQ(front.counts.triangles_in, front.counts.triangles_invalid + front.counts.triangles_culled() + front.counts.triangles_drawn);
       for (size_t i = 0; i < a.primitive.size(); ++i) {
         const bool gone = a.primitive[i] != kNoPrimitive && is_lost(a.primitive[i]);
         lost_pixels += gone;

@@ -102,7 +102,7 @@ TEST(RasterVisibility, R7_SubPixelMeshCoversEveryPixelOnce) {
     const FrontEnd front = run_front_end(t->frame);
     const std::vector<int> count = count_fragments(t->frame, front.bins);
     for (size_t i = 0; i < count.size(); ++i) ASSERT_EQ(count[i], 1) << i % 107 << "," << i / 107;
-    EXPECT_EQ(front.counts.triangles_in, front.counts.triangles_drawn + front.counts.triangles_culled);
+    EXPECT_EQ(front.counts.triangles_in, front.counts.triangles_drawn + front.counts.triangles_culled());
   }
 }
 
@@ -265,7 +265,7 @@ TEST(RasterVisibility, BackFacesAreCulledOnDemand) {
     FrontEnd front = run_front_end(t->frame);
     const Picture p = rasterize(t->frame, front.bins);
     for (const uint32_t id : p.primitive) ASSERT_EQ(id, culling == Culling::kNone ? 0u : 1u);
-    EXPECT_EQ(front.counts.triangles_culled, culling == Culling::kNone ? 1u : 2u);
+    EXPECT_EQ(front.counts.triangles_culled(), culling == Culling::kNone ? 1u : 2u);
   }
 }
 

@@ -74,10 +74,20 @@ inline double facing(const SceneData& scene, const Triangle& t, const glm::dvec3
 
 // Integers only: sums do not depend on the order of tasks.
 struct FrameCounts {
-  uint64_t triangles_in = 0, triangles_invalid = 0, triangles_clipped = 0, triangles_culled = 0, triangles_drawn = 0;
+  uint64_t triangles_in = 0, triangles_invalid = 0, triangles_clipped = 0, triangles_drawn = 0;
+  // Of those that are not drawn: outside the picture, back faces (where they are culled), without a sample in the picture.
+  uint64_t triangles_outside = 0, triangles_back_face = 0, triangles_empty = 0;
+  uint64_t triangles_culled() const { return triangles_outside + triangles_back_face + triangles_empty; }
+  // Of opaque triangles, once for each tile and each sample of a pixel: listed, and hidden by what was drawn before. Samples that passed
+  // the depth test; over the covered ones, that is the overdraw.
+  uint64_t tile_triangles = 0, tile_triangles_hidden = 0, samples_passed = 0;
   uint64_t pixels_covered = 0, surfaces_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
   uint64_t vertices_lit = 0;
+
+  void add(const TileHits& tile) {
+    tile_triangles += tile.triangles, tile_triangles_hidden += tile.triangles_hidden, samples_passed += tile.passed;
+  }
 };
 
 }  // namespace spanray

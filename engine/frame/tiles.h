@@ -51,10 +51,17 @@ struct alignas(64) ScreenTriangle {
 };
 static_assert(sizeof(ScreenTriangle) == 64);
 
+// First and last column and row of the tiles that a triangle's bounding box meets, a byte each: a picture has at most 256 either way.
+inline uint32_t pack_tile_box(uint32_t column0, uint32_t column1, uint32_t row0, uint32_t row1) {
+  return column0 | column1 << 8 | row0 << 16 | row1 << 24;
+}
+
 // What one task of the front end made from a range of primitives, in order of primitives. Reading the chunks in order, a
 // tile sees its triangles in order of their ids: ties in depth go to the lowest without any comparison of ids.
 struct BinChunk {
   AlignedBuffer<ScreenTriangle> triangles;
+  AlignedBuffer<uint32_t> tile_box;                       // by triangle: pack_tile_box
+  bool has_translucent = false;
   std::vector<uint32_t> opaque_start, translucent_start;  // per tile, prefix sums, size tiles + 1
   AlignedBuffer<uint32_t> opaque, translucent;            // indices into triangles, by tile
 };
@@ -64,7 +71,7 @@ struct TileBins {
   size_t memory_bytes() const {
     size_t bytes = 0;
     for (const BinChunk& c : chunks)
-      bytes += c.triangles.bytes() + c.opaque.bytes() + c.translucent.bytes() +
+      bytes += c.triangles.bytes() + c.tile_box.bytes() + c.opaque.bytes() + c.translucent.bytes() +
                (c.opaque_start.capacity() + c.translucent_start.capacity()) * sizeof(uint32_t);
     return bytes;
   }
@@ -74,6 +81,7 @@ struct TileBins {
 struct TileHits {
   alignas(64) uint32_t primitive[kTilePixels];  // kNoPrimitive: background
   alignas(64) float depth[kTilePixels];         // 0: background
+  uint64_t triangles, triangles_hidden, passed;  // what it took: FrameCounts
 };
 
 // Translucent candidates of a tile or a ray batch, unordered: shading orders them. `ray` as in HitBatch, `pixel` packed.

@@ -35,54 +35,73 @@ class EdgeTest {
   int sign_;
 };
 
-struct TileRange { int column0, column1, row0, row1; };  // half-open
-
-TileRange tiles_of(const ScreenTriangle& t, const TileGrid& grid, const SamplePlaces& s) {
-  const auto [x_min, x_max] = std::minmax({t.x_24_8[0], t.x_24_8[1], t.x_24_8[2]});
-  const auto [y_min, y_max] = std::minmax({t.y_24_8[0], t.y_24_8[1], t.y_24_8[2]});
-  const auto last = [](int32_t coordinate, int size) { return (std::min(first_center(coordinate), size) + kTileSize - 1) / kTileSize; };
-  return {std::max(first_center(x_min - s.right), 0) / kTileSize, last(x_max - s.left, grid.width),
-          std::max(first_center(y_min - s.bottom), 0) / kTileSize, last(y_max - s.top, grid.height)};
-}
-
 struct Entry { uint32_t tile, triangle; };
 
-// Stable counting sort of entries by tile.
-void sort_by_tile(const AlignedBuffer<Entry>& entries, int tiles, std::vector<uint32_t>& start, AlignedBuffer<uint32_t>& list) {
-  start.assign(static_cast<size_t>(tiles) + 1, 0);
-  for (const Entry& e : entries) ++start[e.tile + 1];
-  for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  list.resize(entries.size());
-  for (const Entry& e : entries) list[start[e.tile]++] = e.triangle;
-  // Each start has moved on to the next one's place.
-  for (size_t i = start.size() - 1; i > 0; --i) start[i] = start[i - 1];
-  start[0] = 0;
-}
+// The entries of one chunk on their way into lists by tile. Kept by a worker from chunk to chunk.
+struct EntryList {
+  AlignedBuffer<Entry> entries;
+  size_t count = 0;
 
-void bin_chunk(const TileGrid& grid, const SamplePlaces& samples, BinChunk& chunk) {
-  constexpr int kFewTiles = 4;  // up to so many the edge test costs more than it saves
-  AlignedBuffer<Entry> opaque, translucent;
+  void start(std::vector<uint32_t>& tile_start, int tiles) {
+    count = 0;
+    tile_start.assign(static_cast<size_t>(tiles) + 1, 0);
+  }
+  void make_room(size_t n) {
+    if (count + n > entries.size()) entries.resize(2 * (count + n) + 4096);
+  }
+  void add(uint32_t tile, uint32_t triangle, uint32_t* tile_count) {
+    entries[count++] = {tile, triangle};
+    ++tile_count[tile];
+  }
+  // Stable counting sort by tile. In: start[tile + 1] counts the tile's entries. Out: list[start[tile] .. start[tile + 1]).
+  void sort(std::vector<uint32_t>& start, AlignedBuffer<uint32_t>& list) {
+    for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    list.resize(count);
+    for (size_t i = 0; i < count; ++i) list[start[entries[i].tile]++] = entries[i].triangle;
+    // Each start has moved on to the next one's place.
+    for (size_t i = start.size() - 1; i > 0; --i) start[i] = start[i - 1];
+    start[0] = 0;
+  }
+};
+
+void bin_chunk(const TileGrid& grid, const SamplePlaces& samples, BinChunk& chunk, EntryList& opaque, EntryList& translucent) {
+  constexpr uint32_t kFewTiles = 4;  // up to so many the edge test costs more than it saves
+  opaque.start(chunk.opaque_start, grid.count());
+  translucent.start(chunk.translucent_start, grid.count());
+  const uint32_t columns = static_cast<uint32_t>(grid.columns);
   for (uint32_t i = 0; i < chunk.triangles.size(); ++i) {
-    const ScreenTriangle& t = chunk.triangles[i];
-    const TileRange r = tiles_of(t, grid, samples);
-    AlignedBuffer<Entry>& entries = (t.flags & kMaterialTranslucent) ? translucent : opaque;
-    const bool test = (r.column1 - r.column0) * (r.row1 - r.row0) > kFewTiles;
-    const EdgeTest edges(t, samples);
-    for (int row = r.row0; row < r.row1; ++row)
-      for (int column = r.column0; column < r.column1; ++column) {
-        const int tile = row * grid.columns + column;
-        if (!test || edges.may_cover(grid, tile)) entries.push_back({static_cast<uint32_t>(tile), i});
+    const uint32_t box = chunk.tile_box[i];
+    const uint32_t column0 = box & 255, column1 = box >> 8 & 255, row0 = box >> 16 & 255, row1 = box >> 24;
+    const bool blended = chunk.has_translucent && (chunk.triangles[i].flags & kMaterialTranslucent) != 0;
+    EntryList& list = blended ? translucent : opaque;
+    uint32_t* const tile_count = (blended ? chunk.translucent_start : chunk.opaque_start).data() + 1;
+    const uint32_t tiles = (column1 - column0 + 1) * (row1 - row0 + 1);
+    list.make_room(tiles);
+    if (tiles == 1) {
+      list.add(row0 * columns + column0, i, tile_count);
+      continue;
+    }
+    const EdgeTest edges(chunk.triangles[i], samples);
+    for (uint32_t row = row0; row <= row1; ++row)
+      for (uint32_t column = column0; column <= column1; ++column) {
+        const uint32_t tile = row * columns + column;
+        if (tiles <= kFewTiles || edges.may_cover(grid, static_cast<int>(tile))) list.add(tile, i, tile_count);
       }
   }
-  sort_by_tile(opaque, grid.count(), chunk.opaque_start, chunk.opaque);
-  sort_by_tile(translucent, grid.count(), chunk.translucent_start, chunk.translucent);
+  opaque.sort(chunk.opaque_start, chunk.opaque);
+  translucent.sort(chunk.translucent_start, chunk.translucent);
 }
 
 }  // namespace
 
 void bin_triangles(const Frame& frame, TileBins& bins) {
   bins.grid = frame.grid;
-  frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int) { bin_chunk(frame.grid, frame.places, bins.chunks[i]); });
+  struct Scratch { EntryList opaque, translucent; };
+  std::vector<Scratch> scratch(static_cast<size_t>(frame.parallel->threads()));
+  frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int worker) {
+    Scratch& s = scratch[static_cast<size_t>(worker)];
+    bin_chunk(frame.grid, frame.places, bins.chunks[i], s.opaque, s.translucent);
+  });
 }
 
 }  // namespace spanray

@@ -1,6 +1,7 @@
 // Triangles -> screen triangles: drops, culls, clips, and sets up depth.
 #include <algorithm>
 
+#include "raster/clip_kernel.h"
 #include "raster/clip_polygon.h"
 #include "raster/depth_plane.h"
 #include "raster/fixed_point.h"
@@ -10,21 +11,14 @@ namespace spanray {
 namespace {
 
 // The number of chunks bounds the memory of per-tile lists; their limits depend on the scene alone.
-constexpr size_t kMinChunk = 2048, kMaxChunks = 128;
+constexpr size_t kMinChunk = 4096, kMaxChunks = 128;
 
-// One chunk's work, in order of primitives.
-class ChunkClipper {
+// One triangle after the other, whatever it needs.
+class TriangleClipper {
  public:
-  ChunkClipper(const Frame& frame, const ScreenVertices& vertices, BinChunk& chunk)
-      : frame_(frame), vertices_(vertices), chunk_(chunk) {}
+  TriangleClipper(const Frame& frame, const ScreenVertices& vertices, BinChunk& chunk, FrameCounts& counts)
+      : frame_(frame), vertices_(vertices), chunk_(chunk), counts_(counts) {}
 
-  FrameCounts run(uint32_t begin, uint32_t end) {
-    chunk_.triangles.clear();
-    for (uint32_t primitive = begin; primitive < end; ++primitive) process(primitive);
-    return counts_;
-  }
-
- private:
   void process(uint32_t primitive) {
     const Triangle& t = frame_.scene->triangles[primitive];
     uint16_t all = 0xffff, any = 0;
@@ -38,19 +32,27 @@ class ChunkClipper {
       ++counts_.triangles_invalid;
       return;
     }
-    const size_t drawn_before = chunk_.triangles.size();
-    if (all == 0 && !is_back_face(t)) {
-      if (any & kOutClipMask) {
-        ++counts_.triangles_clipped;
-        emit_clipped(t, primitive);
-      } else {
-        SnappedPoint p[3];
-        for (int i = 0; i < 3; ++i) p[i] = {vertices_.x_24_8[t.vertex[i]], vertices_.y_24_8[t.vertex[i]]};
-        if (covers_a_sample(p)) emit(p, setup(t, primitive));
-      }
+    if (all != 0) {
+      ++counts_.triangles_outside;
+      return;
     }
-    ++(chunk_.triangles.size() > drawn_before ? counts_.triangles_drawn : counts_.triangles_culled);
+    if (is_back_face(t)) {
+      ++counts_.triangles_back_face;
+      return;
+    }
+    const size_t drawn_before = chunk_.triangles.size();
+    if (any & kOutClipMask) {
+      ++counts_.triangles_clipped;
+      emit_clipped(t, primitive);
+    } else {
+      SnappedPoint p[3];
+      for (int i = 0; i < 3; ++i) p[i] = {vertices_.x_24_8[t.vertex[i]], vertices_.y_24_8[t.vertex[i]]};
+      if (covers_a_sample(p)) emit(p, setup(t, primitive));
+    }
+    ++(chunk_.triangles.size() > drawn_before ? counts_.triangles_drawn : counts_.triangles_empty);
   }
+
+ private:
 
   // Edge-on triangles are no front faces: a ray misses them.
   bool is_back_face(const Triangle& t) const {
@@ -99,15 +101,32 @@ class ChunkClipper {
   void emit(const SnappedPoint p[3], ScreenTriangle s) {
     for (int i = 0; i < 3; ++i) s.x_24_8[i] = p[i].x_24_8, s.y_24_8[i] = p[i].y_24_8;
     chunk_.triangles.push_back(s);
+    chunk_.tile_box.push_back(tile_box(p));
+    chunk_.has_translucent |= (s.flags & kMaterialTranslucent) != 0;
+  }
+
+  // Of a triangle that may cover a sample.
+  uint32_t tile_box(const SnappedPoint p[3]) const {
+    const auto [x_min, x_max] = std::minmax({p[0].x_24_8, p[1].x_24_8, p[2].x_24_8});
+    const auto [y_min, y_max] = std::minmax({p[0].y_24_8, p[1].y_24_8, p[2].y_24_8});
+    const SamplePlaces& s = frame_.places;
+    const auto first = [](int32_t v) { return static_cast<uint32_t>(std::max(first_center(v), 0) / kTileSize); };
+    const auto last = [](int32_t v, int size) { return static_cast<uint32_t>((std::min(first_center(v), size) - 1) / kTileSize); };
+    return pack_tile_box(first(x_min - s.right), last(x_max - s.left, frame_.grid.width), first(y_min - s.bottom),
+                         last(y_max - s.top, frame_.grid.height));
   }
 
   const Frame& frame_;
   const ScreenVertices& vertices_;
   BinChunk& chunk_;
-  FrameCounts counts_;
+  FrameCounts& counts_;
 };
 
 }  // namespace
+
+void clip_triangle(const Frame& frame, const ScreenVertices& vertices, uint32_t primitive, BinChunk& chunk, FrameCounts& counts) {
+  TriangleClipper(frame, vertices, chunk, counts).process(primitive);
+}
 
 void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts) {
   const size_t n = frame.scene->triangles.size();
@@ -116,15 +135,19 @@ void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins
   bins.chunks.resize((n + chunk_size - 1) / chunk_size);
   std::vector<FrameCounts> chunk_counts(bins.chunks.size());
   frame.parallel->for_each(bins.chunks.size(), [&](size_t i, int) {
-    ChunkClipper clipper(frame, vertices, bins.chunks[i]);
-    chunk_counts[i] =
-        clipper.run(static_cast<uint32_t>(i * chunk_size), static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)));
+    BinChunk& chunk = bins.chunks[i];
+    chunk.triangles.clear(), chunk.tile_box.clear();
+    chunk.has_translucent = false;
+    kClipRange[isa_index(frame.isa)](frame, vertices, static_cast<uint32_t>(i * chunk_size),
+                                     static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)), chunk, chunk_counts[i]);
   });
   for (const FrameCounts& c : chunk_counts) {
     counts.triangles_in += c.triangles_in;
     counts.triangles_invalid += c.triangles_invalid;
     counts.triangles_clipped += c.triangles_clipped;
-    counts.triangles_culled += c.triangles_culled;
+    counts.triangles_outside += c.triangles_outside;
+    counts.triangles_back_face += c.triangles_back_face;
+    counts.triangles_empty += c.triangles_empty;
     counts.triangles_drawn += c.triangles_drawn;
   }
 }

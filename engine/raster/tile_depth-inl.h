@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "raster/setup-inl.h"
+#include "raster/walk_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -17,15 +17,29 @@ namespace HWY_NAMESPACE {
 // The farthest depth of each 16 x 16 block, and of each quarter of the tile. A lower bound: depths only grow.
 class TileDepth {
  public:
+  static constexpr int kBlock = 16, kPerSide = kTileSize / kBlock, kBlocks = kPerSide * kPerSide;
+  static constexpr uint32_t kAllBlocks = (1u << kBlocks) - 1;
+
   void clear() { std::fill_n(farthest_, kBlocks + 4, 0.0f); }
 
-  void refresh(const float* depth, const TileFrame& tile) {
-    for (int by = 0; by < kPerSide; ++by)
-      for (int bx = 0; bx < kPerSide; ++bx) farthest_[by * kPerSide + bx] = block(depth, tile, bx, by);
+  // Reads the blocks in `changed` anew; bit y * kPerSide + x is block (x, y).
+  void refresh(const float* depth, const TileFrame& tile, uint32_t changed) {
+    for (uint32_t left = changed; left != 0; left &= left - 1) {
+      const int b = __builtin_ctz(left);
+      farthest_[b] = block(depth, tile, b % kPerSide, b / kPerSide);
+    }
     for (int q = 0; q < 4; ++q) {
       const float* const f = farthest_ + (q / 2) * 2 * kPerSide + (q % 2) * 2;
       farthest_[kBlocks + q] = std::min({f[0], f[1], f[kPerSide], f[kPerSide + 1]});
     }
+  }
+
+  // The blocks that columns [x0, x1) and rows [y0, y1) meet.
+  static uint32_t blocks_of(int x0, int x1, int y0, int y1) {
+    const uint32_t columns = (2u << ((x1 - 1) >> 4)) - (1u << (x0 >> 4));
+    uint32_t bits = 0;
+    for (int y = y0 >> 4; y <= (y1 - 1) >> 4; ++y) bits |= columns << (y * kPerSide);
+    return bits;
   }
 
   // Lanes whose box may show a pixel of depth `nearest`; equal depth may. Boxes without pixels give anything.
@@ -43,8 +57,22 @@ class TileDepth {
     return nearest >= f;
   }
 
+  // Blocks in which pixels of the box of triangle i may show. Blocks outside of the box give anything.
+  HWY_INLINE uint32_t blocks_that_show(const TileFrame& tile, const WalkSetups& s, int i) const {
+    const F64 depth0 = f64(s.depth0[i]), dx = f64(s.depth_dx[i]), dy = f64(s.depth_dy[i]);
+    const bool right = s.depth_dx[i] > 0, down = s.depth_dy[i] > 0;  // where the nearest pixel of a block lies, as in nearest_depth
+    uint32_t bits = 0;
+    for (int b = 0; b < kBlocks; b += kLanes) {
+      const I32 block = lane_iota(b), left = shift_left<4>(block & i32(kPerSide - 1)), top = shift_left<4>(shift_right<2>(block));
+      const I32 x = right ? min_(left + i32(kBlock - 1), i32(s.x1[i] - 1)) : max_(left, i32(s.x0[i]));
+      const I32 y = down ? min_(top + i32(kBlock - 1), i32(s.y1[i] - 1)) : max_(top, i32(s.y0[i]));
+      const F64 depth = (depth0 + (to_f64(y) + f64(tile.y + 0.5)) * dy) + (to_f64(x) + f64(tile.x + 0.5)) * dx;
+      bits |= to_bits(clamp_(to_f32(depth), f32(s.depth_min[i]), f32(s.depth_max[i])) >= F32::load(farthest_ + b)) << b;
+    }
+    return bits;
+  }
+
  private:
-  static constexpr int kBlock = 16, kPerSide = kTileSize / kBlock, kBlocks = kPerSide * kPerSide;
 
   // Pixels past the end of the picture do not count.
   static HWY_INLINE float block(const float* depth, const TileFrame& tile, int bx, int by) {
@@ -58,7 +86,7 @@ class TileDepth {
     return min_of_lanes(least);
   }
 
-  float farthest_[kBlocks + 4];
+  alignas(64) float farthest_[kBlocks + 16];
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -31,16 +31,22 @@ class Window {
   }
   void draw() {
     if (count_ == 0) return;
+    out_.triangles += static_cast<uint64_t>(count_);
     classify();
-    sort_by_depth(large_, large_count_);
-    draw_walked(large_, large_count_, false);
-    if (tiny_count_ > 0) {
+    sort_by_depth(large_);
+    draw_walked<false, false>(large_);
+    if (small_.count > 0) {
+      refresh_if(1);
+      sort_by_depth(small_);
+      draw_walked<true, false>(small_);
+    }
+    if (tiny_.count > 0) {
       refresh_if(1);
       draw_tiny();
     }
-    if (masked_count_ > 0) {
+    if (masked_.count > 0) {
       refresh_if(1);
-      draw_walked(masked_, masked_count_, true);
+      draw_walked<false, true>(masked_);
     }
     count_ = 0;
   }
@@ -49,8 +55,17 @@ class Window {
   static constexpr int kRoom = 256;
   static constexpr int kRefreshPixels = kTilePixels / 2;  // of boxes drawn since the last refresh
 
+  // Indices of triangles, with room for whole vectors.
+  struct List {
+    int count = 0;
+    alignas(64) int32_t index[kRoom + 16];
+    HWY_INLINE void add(I32 i, Mask m) { count += compress_store(i, m, index + count); }
+    // The next vector; lanes past the end repeat some triangle.
+    HWY_INLINE I32 load(int i, Mask valid) const { return select(valid, I32::load(index + i), I32::zero()); }
+  };
+
   void classify() {
-    large_count_ = tiny_count_ = masked_count_ = 0;
+    large_.count = small_.count = tiny_.count = masked_.count = 0;
     for (int i = 0; i < count_; i += kLanes) {
       const I32 index = min_(lane_iota(i), i32(count_ - 1)), word = index * i32(kTriangleWords);
       const CornerLanes c = load_corners(tile_, triangles_, index);
@@ -58,102 +73,113 @@ class Window {
       const F32 nearest = gather(&triangles_->depth_max, word);
       const I32 w = box.x1 - box.x0, h = box.y1 - box.y0, zero = I32::zero();
       Mask live = first_lanes(count_ - i) & (w > zero) & (h > zero);
-      if (tile_depth_known_) live = live & tile_depth_.may_show(box, nearest);
+      if (tile_depth_known_) live = drop_hidden(live, box, nearest);
       box.pack().store(box_ + i);
       nearest.store(nearest_ + i);
-      const I32 extent = max_(greatest(c.x) - least(c.x), greatest(c.y) - least(c.y));
       const Mask masked = (gather(&triangles_->flags, word) & i32(int32_t{kMaterialMasked})) != zero;
-      const Mask tiny = (w * h < i32(kPacketPixels + 1)) & (extent < i32(kPacketExtent));
+      const Mask tiny = (w * h < i32(kPacketPixels + 1)) & has_tiny_extent(c);
       const Mask opaque = and_not(masked, live);
-      masked_count_ += compress_store(index, live & masked, masked_ + masked_count_);
-      tiny_count_ += compress_store(index, opaque & tiny, tiny_ + tiny_count_);
-      large_count_ += compress_store(index, and_not(tiny, opaque), large_ + large_count_);
+      const Mask small = (w < i32(kSmallColumns + 1)) & (h < i32(kSmallRows + 1));
+      masked_.add(index, live & masked);
+      tiny_.add(index, opaque & tiny);
+      small_.add(index, and_not(tiny, opaque & small));
+      large_.add(index, and_not(tiny | small, opaque));
     }
   }
 
-  // Near ones first, by a coarse logarithm of their depth. Bits of positive floats are in order of their values.
-  void sort_by_depth(int32_t* list, int n) {
+  HWY_INLINE Mask drop_hidden(Mask candidates, const BoxLanes& box, F32 nearest) {
+    const Mask live = candidates & tile_depth_.may_show(box, nearest);
+    out_.triangles_hidden += static_cast<uint64_t>(count(candidates) - count(live));
+    return live;
+  }
+
+  // Near ones first, by a coarse logarithm of their depth in this tile. Bits of positive floats are in order of their values.
+  void sort_by_depth(List& list) {
+    const int n = list.count;
     if (n < 2) return;
     constexpr int kBuckets = 32;
-    uint32_t low = ~0u, high = 0;
-    uint32_t* const key = sort_key_;
-    for (int i = 0; i < n; ++i) {
-      std::memcpy(&key[i], &nearest_[list[i]], 4);
-      low = std::min(low, key[i]), high = std::max(high, key[i]);
+    alignas(64) uint32_t key[kRoom + 16];
+    for (int i = 0; i < n; i += kLanes) {
+      const I32 index = list.load(i, first_lanes(n - i));
+      bits_of(nearest_depth(tile_, load_depth(tile_, triangles_, index), BoxLanes::unpack(gather(box_, index)))).store(key + i);
     }
+    uint32_t low = ~0u, high = 0;
+    for (int i = 0; i < n; ++i) low = std::min(low, key[i]), high = std::max(high, key[i]);
     int shift = 0;
     while ((high - low) >> shift >= kBuckets) ++shift;
     int start[kBuckets + 1] = {};
     for (int i = 0; i < n; ++i) ++start[((high - key[i]) >> shift) + 1];
     for (int b = 0; b < kBuckets; ++b) start[b + 1] += start[b];
     int32_t sorted[kRoom];
-    for (int i = 0; i < n; ++i) sorted[start[(high - key[i]) >> shift]++] = list[i];
-    std::memcpy(list, sorted, static_cast<size_t>(n) * 4);
+    for (int i = 0; i < n; ++i) sorted[start[(high - key[i]) >> shift]++] = list.index[i];
+    std::memcpy(list.index, sorted, static_cast<size_t>(n) * 4);
   }
 
   void refresh_if(int pixels) {
     if (stale_pixels_ < pixels) return;
-    tile_depth_.refresh(out_.depth, tile_);
+    tile_depth_.refresh(out_.depth, tile_, stale_blocks_);
     tile_depth_known_ = true;
-    stale_pixels_ = 0;
+    stale_pixels_ = 0, stale_blocks_ = 0;
   }
 
-  void draw_walked(const int32_t* list, int n, bool masked) {
+  template <bool kSmall, bool kMasked> void draw_walked(const List& list) {
     WalkSetups setups;
-    for (int i = 0; i < n; i += kLanes) {
+    for (int i = 0; i < list.count; i += kLanes) {
       refresh_if(kRefreshPixels);
-      const Mask valid = first_lanes(n - i);
-      const I32 index = select(valid, I32::load(list + i), I32::zero());
+      const Mask valid = first_lanes(list.count - i);
+      const I32 index = list.load(i, valid);
       const BoxLanes box = BoxLanes::unpack(gather(box_, index));
       const DepthLanes depth = load_depth(tile_, triangles_, index);
-      const Mask live = valid & tile_depth_.may_show(box, nearest_depth(tile_, depth, box));
+      const Mask live = drop_hidden(valid, box, nearest_depth(tile_, depth, box));
       uint32_t bits = to_bits(live);
       if (bits == 0) continue;
       setup_walk(load_corners(tile_, triangles_, index), box, depth, setups);
       gather(&triangles_->primitive, index * i32(kTriangleWords)).store(setups.primitive);
       for (; bits != 0; bits &= bits - 1) {
         const int k = __builtin_ctz(bits);
-        if (masked)
-          walk_masked(setups, k);
-        else
-          walk_opaque(setups, k);
-        stale_pixels_ += (setups.x1[k] - setups.x0[k]) * (setups.y1[k] - setups.y0[k]);
+        const int w = setups.x1[k] - setups.x0[k], h = setups.y1[k] - setups.y0[k];
+        // Boxes of one block or so have just been tested.
+        const bool wide = !kSmall && (w > TileDepth::kBlock || h > TileDepth::kBlock);
+        const uint32_t blocks = wide && tile_depth_known_ ? tile_depth_.blocks_that_show(tile_, setups, k) : TileDepth::kAllBlocks;
+        walk<kSmall, kMasked>(setups, k, blocks);
+        stale_pixels_ += w * h;
+        stale_blocks_ |= blocks & TileDepth::blocks_of(setups.x0[k], setups.x1[k], setups.y0[k], setups.y1[k]);
       }
     }
   }
 
-  void walk_opaque(const WalkSetups& setups, int k) {
-    const I32 primitive = i32(setups.primitive[k]);
-    walk_columns(tile_, setups, k, [&](int column, int row, Mask inside, F32 depth) HWY_ATTR {
-      const int offset = row * kTileSize + column;
-      const F32 stored = F32::load(out_.depth + offset);
-      const I32 owner = I32::load(out_.primitive + offset);
-      const Mask visible = inside & ((depth > stored) | ((depth == stored) & less_unsigned(primitive, owner)));
-      select(visible, depth, stored).store(out_.depth + offset);
-      select(visible, primitive, owner).store(out_.primitive + offset);
-    });
+  // Nearer, or as near and of a lower id. Bits of floats that are not negative are in order of their values.
+  static HWY_INLINE Mask wins(F32 depth, I32 primitive, F32 stored, I32 owner) {
+    return bits_of(depth) > bits_of(stored) - select(less_unsigned(primitive, owner), i32(1), I32::zero());
   }
 
-  void walk_masked(const WalkSetups& setups, int k) {
+  template <bool kSmall, bool kMasked> HWY_NOINLINE void walk(const WalkSetups& setups, int k, uint32_t blocks) {
     const I32 primitive = i32(setups.primitive[k]);
-    walk_columns(tile_, setups, k, [&](int column, int row, Mask inside, F32 depth) HWY_ATTR {
+    float* const depths = out_.depth;  // no members: stores into the tile might change them
+    uint32_t* const owners = out_.primitive;
+    int passed = 0;
+    walk_columns<kSmall>(tile_, setups, k, blocks, [&](int column, int row, Mask inside, F32 depth) HWY_ATTR {
       const int offset = row * kTileSize + column;
-      const F32 stored = F32::load(out_.depth + offset);
-      const I32 owner = I32::load(out_.primitive + offset);
-      Mask visible = inside & ((depth > stored) | ((depth == stored) & less_unsigned(primitive, owner)));
-      visible = ask_accept(frame_, setups.primitive[k], tile_.x + column, tile_.y + row, visible, place_);
-      if (!any(visible)) return;
-      select(visible, depth, stored).store(out_.depth + offset);
-      select(visible, primitive, owner).store(out_.primitive + offset);
+      const F32 stored = F32::load(depths + offset);
+      const I32 owner = I32::load(owners + offset);
+      Mask visible = inside & wins(depth, primitive, stored, owner);
+      if (kMasked) {
+        visible = ask_accept(frame_, setups.primitive[k], tile_.x + column, tile_.y + row, visible, place_);
+        if (!any(visible)) return;
+      }
+      passed += count(visible);
+      select(visible, depth, stored).store(depths + offset);
+      select(visible, primitive, owner).store(owners + offset);
     });
+    out_.passed += static_cast<uint64_t>(passed);
   }
 
   void draw_tiny() {
     if (tile_depth_known_) cull_tiny();
     PacketFragments fragments;
-    for (int i = 0; i < tiny_count_; i += kLanes) {
-      const Mask valid = first_lanes(tiny_count_ - i);
-      const I32 index = select(valid, I32::load(tiny_ + i), I32::zero());
+    for (int i = 0; i < tiny_.count; i += kLanes) {
+      const Mask valid = first_lanes(tiny_.count - i);
+      const I32 index = tiny_.load(i, valid);
       fragments.count = 0;
       walk_packet(tile_, load_corners(tile_, triangles_, index), BoxLanes::unpack(gather(box_, index)),
                   load_depth(tile_, triangles_, index), gather(&triangles_->primitive, index * i32(kTriangleWords)), valid, fragments);
@@ -163,25 +189,29 @@ class Window {
 
   void cull_tiny() {
     int kept = 0;
-    for (int i = 0; i < tiny_count_; i += kLanes) {
-      const Mask valid = first_lanes(tiny_count_ - i);
-      const I32 index = select(valid, I32::load(tiny_ + i), I32::zero());
-      const Mask live = valid & tile_depth_.may_show(BoxLanes::unpack(gather(box_, index)), gather(nearest_, index));
-      kept += compress_store(index, live, tiny_ + kept);
+    for (int i = 0; i < tiny_.count; i += kLanes) {
+      const Mask valid = first_lanes(tiny_.count - i);
+      const I32 index = tiny_.load(i, valid);
+      const Mask live = drop_hidden(valid, BoxLanes::unpack(gather(box_, index)), gather(nearest_, index));
+      kept += compress_store(index, live, tiny_.index + kept);
     }
-    tiny_count_ = kept;
+    tiny_.count = kept;
   }
 
   void drain(const PacketFragments& f) {
+    int passed = 0;
     for (int i = 0; i < f.count; ++i) {
       const int offset = f.offset[i];
       const uint32_t primitive = static_cast<uint32_t>(f.primitive[i]), owner = out_.primitive[offset];
       const float depth = f.depth[i], stored = out_.depth[offset];
       const bool visible = (depth > stored) | ((depth == stored) & (primitive < owner));
+      passed += visible;
       out_.depth[offset] = visible ? depth : stored;
       out_.primitive[offset] = visible ? primitive : owner;
     }
+    out_.passed += static_cast<uint64_t>(passed);
     stale_pixels_ += f.count;
+    stale_blocks_ = TileDepth::kAllBlocks;
   }
 
   const Frame& frame_;
@@ -190,11 +220,11 @@ class Window {
   TileHits& out_;
   TileDepth tile_depth_;
   bool tile_depth_known_ = false;
-  int stale_pixels_ = 0, count_ = 0, large_count_ = 0, tiny_count_ = 0, masked_count_ = 0;
-  // Lists of indices and what belongs to a triangle, with room for whole vectors.
-  alignas(64) int32_t large_[kRoom + 16], tiny_[kRoom + 16], masked_[kRoom + 16], box_[kRoom + 16];
-  alignas(64) float nearest_[kRoom + 16];
-  alignas(64) uint32_t sort_key_[kRoom];
+  uint32_t stale_blocks_ = 0;
+  int stale_pixels_ = 0, count_ = 0;
+  List large_, small_, tiny_, masked_;
+  alignas(64) int32_t box_[kRoom + 16];
+  alignas(64) float nearest_[kRoom + 16];  // depth_max
   alignas(64) ScreenTriangle triangles_[kRoom];
 };
 

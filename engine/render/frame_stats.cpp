@@ -21,6 +21,9 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
                                        &stats.ms.bounce_rays, &stats.ms.composite, &stats.ms.encode};
   for (const auto& w : workers) {
     for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->seconds[i] * 1e3 / threads;
+    counts.tile_triangles += w->counts.tile_triangles;
+    counts.tile_triangles_hidden += w->counts.tile_triangles_hidden;
+    counts.samples_passed += w->counts.samples_passed;
     counts.pixels_covered += w->counts.pixels_covered;
     counts.surfaces_shaded += w->counts.surfaces_shaded;
     counts.fragments_translucent += w->counts.fragments_translucent;
@@ -35,8 +38,14 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
   stats.counts = {{"triangles_in", c.triangles_in},
                   {"triangles_invalid", c.triangles_invalid},
                   {"triangles_clipped", c.triangles_clipped},
-                  {"triangles_culled", c.triangles_culled},
+                  {"triangles_culled", c.triangles_culled()},
+                  {"triangles_outside", c.triangles_outside},
+                  {"triangles_back_face", c.triangles_back_face},
+                  {"triangles_empty", c.triangles_empty},
                   {"triangles_drawn", c.triangles_drawn},
+                  {"tile_triangles", c.tile_triangles},
+                  {"tile_triangles_hidden", c.tile_triangles_hidden},
+                  {"samples_passed", c.samples_passed},
                   {"pixels_covered", c.pixels_covered},
                   {"surfaces_shaded", c.surfaces_shaded},
                   {"fragments_translucent", c.fragments_translucent},

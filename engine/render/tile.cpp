@@ -239,6 +239,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   } else if (job.bins != nullptr) {
     const StageTimer timer(w, TileStage::kRaster);
     rasterize_tile(job.frame, *job.bins, tile, w.visible);
+    w.counts.add(w.visible);
     w.fragments.clear();
     if (job.frame.plan.translucents) rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.fragments);
   }

@@ -215,6 +215,7 @@ void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
   const StageTimer timer(w, TileStage::kRaster);
   for (int s = 0; s < places.count; ++s) {
     rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
+    w.counts.add(w.visible);
     std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kSamplePlane);
     w.samples->fragments[s].clear();
     if (job.frame.plan.translucents)
