@@ -75,12 +75,14 @@ HWY_INLINE DepthLanes load_depth(const TileFrame& tile, const ScreenTriangle* tr
 HWY_INLINE F32 depth_at(const DepthLanes& d, F64 center_x, F64 center_y) {
   return clamp_(to_f32((d.depth0 + center_y * d.dy) + center_x * d.dx), d.min, d.max);
 }
+// As the clamp of depth_at, but where sums overflowed to NaN it is the greatest depth that there is.
+HWY_INLINE F32 bound_of(F32 depth, F32 depth_min, F32 depth_max) { return max_(min_(depth, depth_max), depth_min); }
 // The greatest depth of any pixel of the box. Every operation of depth_at is monotone in x and in y, so a corner has it, bit for bit.
 HWY_INLINE F32 nearest_depth(const TileFrame& tile, const DepthLanes& d, const BoxLanes& box) {
   const F64 zero = f64(0.0), one = f64(1.0), x = f64(tile.x + 0.5), y = f64(tile.y + 0.5);
   const F64 corner_x = select_lt(zero, d.dx, to_f64(box.x1) - one, to_f64(box.x0)) + x;
   const F64 corner_y = select_lt(zero, d.dy, to_f64(box.y1) - one, to_f64(box.y0)) + y;
-  return depth_at(d, corner_x, corner_y);
+  return bound_of(to_f32((d.depth0 + corner_y * d.dy) + corner_x * d.dx), d.min, d.max);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

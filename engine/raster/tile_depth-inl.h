@@ -20,7 +20,12 @@ class TileDepth {
   static constexpr int kBlock = 16, kPerSide = kTileSize / kBlock, kBlocks = kPerSide * kPerSide;
   static constexpr uint32_t kAllBlocks = (1u << kBlocks) - 1;
 
-  void clear() { std::fill_n(farthest_, kBlocks + 4, 0.0f); }
+  // Blocks outside of the picture hide everything.
+  void clear(const TileFrame& tile) {
+    std::fill_n(farthest_, kBlocks + 4, 0.0f);
+    for (int b = 0; b < kBlocks; ++b)
+      if (b % kPerSide * kBlock >= tile.columns || b / kPerSide * kBlock >= tile.rows) farthest_[b] = 1.0f;
+  }
 
   // Reads the blocks in `changed` anew; bit y * kPerSide + x is block (x, y).
   void refresh(const float* depth, const TileFrame& tile, uint32_t changed) {
@@ -67,13 +72,12 @@ class TileDepth {
       const I32 x = right ? min_(left + i32(kBlock - 1), i32(s.x1[i] - 1)) : max_(left, i32(s.x0[i]));
       const I32 y = down ? min_(top + i32(kBlock - 1), i32(s.y1[i] - 1)) : max_(top, i32(s.y0[i]));
       const F64 depth = (depth0 + (to_f64(y) + f64(tile.y + 0.5)) * dy) + (to_f64(x) + f64(tile.x + 0.5)) * dx;
-      bits |= to_bits(clamp_(to_f32(depth), f32(s.depth_min[i]), f32(s.depth_max[i])) >= F32::load(farthest_ + b)) << b;
+      bits |= to_bits(bound_of(to_f32(depth), f32(s.depth_min[i]), f32(s.depth_max[i])) >= F32::load(farthest_ + b)) << b;
     }
     return bits;
   }
 
  private:
-
   // Pixels past the end of the picture do not count.
   static HWY_INLINE float block(const float* depth, const TileFrame& tile, int bx, int by) {
     const int x0 = bx * kBlock, y0 = by * kBlock, y1 = std::min(y0 + kBlock, tile.rows);

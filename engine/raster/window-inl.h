@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 class Window {
  public:
   Window(const Frame& frame, int tile, int place, TileHits& out) : frame_(frame), tile_(frame, tile, place), place_(place), out_(out) {
-    tile_depth_.clear();
+    tile_depth_.clear(tile_);
   }
   HWY_INLINE void add(const ScreenTriangle& t) {
     std::memcpy(&triangles_[count_], &t, sizeof t);

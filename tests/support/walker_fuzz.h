@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <memory>
 
 #include "raster/fixed_point.h"
@@ -72,6 +73,7 @@ inline ScreenTriangle fuzzed_triangle(TestRandom& random, const TileGrid& grid, 
 // Every instruction set, and both ways through the rasterizer: opaque (by size) and masked (always the walker of large ones).
 inline void fuzz_walkers(uint32_t seed, int triangles, int samples) {
   std::printf("seed %u\n", seed);
+  std::fflush(stdout);
   TestRandom random(seed);
   const auto t = make_test_frame(make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}), Camera(), test_settings(150, 141));
   Frame& frame = t->frame;
