@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "raster/fixed_point.h"
 #include "support/coverage_oracle.h"
 #include "support/random.h"
 #include "support/raster_front_end.h"
@@ -55,7 +56,16 @@ void expect_oracle(const ScreenTriangle& t, int samples, int64_t& covered) {
   f->frame.places = make_sample_places(samples);
   TileBins bins;
   bins.chunks.resize(1);
-  bins.chunks[0].triangles.push_back(t);
+  const SamplePlaces& s = f->frame.places;
+  const auto [x_min, x_max] = std::minmax({t.x_24_8[0], t.x_24_8[1], t.x_24_8[2]});
+  const auto [y_min, y_max] = std::minmax({t.y_24_8[0], t.y_24_8[1], t.y_24_8[2]});
+  const int x0 = std::max(first_center(x_min - s.right), 0), x1 = std::min(first_center(x_max - s.left), kWidth);
+  const int y0 = std::max(first_center(y_min - s.bottom), 0), y1 = std::min(first_center(y_max - s.top), kHeight);
+  if (x0 < x1 && y0 < y1) {  // else no sample lies in its box, and clipping drops it
+    const auto tile_of = [](int pixel) { return static_cast<uint32_t>(pixel / kTileSize); };
+    bins.chunks[0].triangles.push_back(t);
+    bins.chunks[0].tile_box.push_back(pack_tile_box(tile_of(x0), tile_of(x1 - 1), tile_of(y0), tile_of(y1 - 1)));
+  }
   bin_triangles(f->frame, bins);
   for (int place = f->frame.places.first(); place < f->frame.places.end(); ++place) {
     std::vector<Picture> pictures;
