@@ -41,37 +41,54 @@ template <bool kMixed> HWY_INLINE LaneBox box_lanes(const RayPacket& p, const Bv
   return {near <= far, near};
 }
 
-// Of some rays of a packet, those whose hit the surface takes. first: the ray of lane 0.
-HWY_INLINE uint32_t ask(const Batch& batch, const PacketLanes& lanes, int first, uint32_t rays, uint32_t primitive) {
-  if (batch.takes_all(primitive)) return rays;
-  uint32_t taken = 0;
-  for (; rays != 0; rays &= rays - 1) {
-    const int i = std::countr_zero(rays);
-    const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
-    taken |= static_cast<uint32_t>(batch.accepts(first + i, origin, primitive)) << i;
+// A packet of a batch on its way through the tree.
+struct PacketTask {
+  const Bvh::Data& data;
+  const Batch& batch;
+  RayPacket p;
+  PacketLanes lanes;
+  int first = 0;  // ray of lane 0
+
+  PacketTask(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
+
+  // Rays from `at` on.
+  HWY_INLINE void start(int at) {
+    first = at;
+    prepare_packet(data, batch.rays, at, batch.rays.count - at < kLanes ? batch.rays.count - at : kLanes, p);
+    if (p.valid != 0) store_lanes(p, lanes);
   }
-  return taken;
+
+  // Of some rays, those whose hit the surface takes.
+  HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) const {
+    if (batch.takes_all(primitive)) return rays;
+    uint32_t taken = 0;
+    for (; rays != 0; rays &= rays - 1) {
+      const int i = std::countr_zero(rays);
+      const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
+      taken |= static_cast<uint32_t>(batch.accepts(first + i, origin, primitive)) << i;
+    }
+    return taken;
+  }
+};
+
+// All rays of a packet down the tree; Packet is one of the two below.
+template <class Packet> HWY_INLINE void go_together(Packet& packet) {
+  const Beam beam = make_beam(packet.p);
+  if (packet.p.mixed_axes == 0) packet.template descend<false>(beam);
+  else packet.template descend<true>(beam);
 }
 
 // ---- any hit ---------------------------------------------------------------------------------------------------------
 
 struct AnyEntry { uint32_t child, rays; };
 
-struct AnyPacket {
-  const Bvh::Data& data;
-  const Batch& batch;
-  RayPacket p;
-  PacketLanes lanes;
-  int first;       // ray of lane 0
-  uint32_t alive;  // rays without a hit
+struct AnyPacket : PacketTask {
+  uint32_t alive = 0;  // rays without a hit
 
-  AnyPacket(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
-
-  HWY_INLINE void start(int at, int n) {
-    first = at;
-    prepare_packet(data, batch.rays, at, n, p);
+  using PacketTask::PacketTask;
+  HWY_INLINE void start(int at) {
+    PacketTask::start(at);
     alive = p.valid;
-    if (alive != 0) store_lanes(p, lanes);
   }
 
   HWY_INLINE void alone(AnyEntry entry) {
@@ -98,7 +115,7 @@ struct AnyPacket {
       const ExactLanes exact = exact_lanes(p, block, j);
       uint32_t found = exact.hit & maybe;
       if (found != 0) found &= ~bits_less(p.t_max, exact.t);
-      if (found != 0) found = ask(batch, lanes, first, found, primitive);
+      if (found != 0) found = ask(found, primitive);
       alive &= ~found;
     }
   }
@@ -125,12 +142,6 @@ struct AnyPacket {
       }
     }
   }
-
-  HWY_INLINE void run() {
-    const Beam beam = make_beam(p);
-    if (p.mixed_axes == 0) descend<false>(beam);
-    else descend<true>(beam);
-  }
 };
 
 // ---- closest hit -----------------------------------------------------------------------------------------------------
@@ -140,24 +151,15 @@ struct PacketEntry {
   uint32_t child;
 };
 
-struct ClosestPacket {
-  const Bvh::Data& data;
-  const Batch& batch;
-  RayPacket p;
-  PacketLanes lanes;
+struct ClosestPacket : PacketTask {
   alignas(64) double best_t[kLanes];  // t_max until something is hit
   alignas(64) uint32_t best[kLanes];
-  int first;  // ray of lane 0
 
-  ClosestPacket(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
-
-  HWY_INLINE void start(int at, int n) {
-    first = at;
-    prepare_packet(data, batch.rays, at, n, p);
+  using PacketTask::PacketTask;
+  HWY_INLINE void start(int at) {
+    PacketTask::start(at);
     i32(kNoPrimitive).store(best);
-    if (p.valid == 0) return;
-    store_lanes(p, lanes);
-    p.t_max.store(best_t);
+    if (p.valid != 0) p.t_max.store(best_t);
   }
 
   // near: where the rays enter `child`, nullptr for 0.
@@ -178,7 +180,7 @@ struct ClosestPacket {
     const F64 before = F64::load(best_t);
     const uint32_t nearer = bits_less(t, before), same = ~(nearer | bits_less(before, t));
     uint32_t counts = hit & (nearer | (same & ~to_bits(less_unsigned(I32::load(best), i32(primitive)))));
-    if (counts != 0) counts = ask(batch, lanes, first, counts, primitive);
+    if (counts != 0) counts = ask(counts, primitive);
     if (counts == 0) return;
     const Mask m = mask_from_bits(counts);
     const F64 after = select(m, t, before);
@@ -233,12 +235,6 @@ struct ClosestPacket {
       else if ((child & kLeafBit) != 0) leaf(child, active);
       else top = push_children<kMixed>(data.nodes[child], beam, stack, top);
     }
-  }
-
-  HWY_INLINE void run() {
-    const Beam beam = make_beam(p);
-    if (p.mixed_axes == 0) descend<false>(beam);
-    else descend<true>(beam);
   }
 };
 

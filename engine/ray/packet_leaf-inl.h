@@ -60,30 +60,6 @@ template <bool kSure> HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, con
   return hits;
 }
 
-// Bit i: a < b in lane i.
-HWY_INLINE uint32_t bits_less(F64 a, F64 b) {
-  constexpr int kPart = kLanes / kHalves;
-  uint32_t bits = 0;
-  for (int h = 0; h < kHalves; ++h) {
-    uint8_t bytes[8];
-    hn::StoreMaskBits(DD(), hn::Lt(a.v[h], b.v[h]), bytes);
-    bits |= (bytes[0] & ((1u << kPart) - 1)) << (h * kPart);
-  }
-  return bits;
-}
-
-HWY_INLINE F64 select(Mask m, F64 yes, F64 no) {
-  F64 r;
-#if HWY_TARGET == HWY_SCALAR
-  r.v[0] = any(m) ? yes.v[0] : no.v[0];
-#else
-  const auto bits = hn::VecFromMask(DI(), hn::RebindMask(DI(), m.m));
-  r.v[0] = hn::IfThenElse(hn::MaskFromVec(hn::BitCast(DD(), hn::PromoteTo(DDI(), hn::LowerHalf(DHI(), bits)))), yes.v[0], no.v[0]);
-  r.v[1] = hn::IfThenElse(hn::MaskFromVec(hn::BitCast(DD(), hn::PromoteTo(DDI(), hn::UpperHalf(DHI(), bits)))), yes.v[1], no.v[1]);
-#endif
-  return r;
-}
-
 HWY_INLINE F64 fmin_(F64 a, F64 b) { return select_lt(b, a, b, a); }  // std::min, std::max: a unless b is less, greater
 HWY_INLINE F64 fmax_(F64 a, F64 b) { return select_lt(a, b, b, a); }
 

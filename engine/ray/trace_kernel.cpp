@@ -4,10 +4,7 @@
 //           the order of the batch and the instruction set.
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <limits>
 
 #include "frame/frame.h"
 #include "ray/bvh_data.h"
@@ -37,12 +34,11 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
   const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
   ClosestPacket packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
-    const int n = rays.count - first < kLanes ? rays.count - first : kLanes;
-    packet.start(first, n);
+    packet.start(first);
     if (packet.p.valid == 0) continue;
-    if (coherent(packet.p)) packet.run();
+    if (coherent(packet.p)) go_together(packet);
     else packet.alone(0, nullptr, packet.p.valid);
-    for (int i = 0; i < n; ++i) out[first + i] = packet.best[i];
+    for (int i = 0; i < kLanes && first + i < rays.count; ++i) out[first + i] = packet.best[i];
   }
 }
 
@@ -52,23 +48,28 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
   const Batch batch{frame, rays, false};
   AnyPacket packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
-    packet.start(first, rays.count - first < kLanes ? rays.count - first : kLanes);
-    const uint32_t all_rays = packet.alive;
-    if (all_rays == 0) continue;
-    if (coherent(packet.p)) packet.run();
-    else packet.alone({0, all_rays});
-    out[first / 32] |= (all_rays & ~packet.alive) << (first % 32);
+    packet.start(first);
+    if (packet.p.valid == 0) continue;
+    if (coherent(packet.p)) go_together(packet);
+    else packet.alone({0, packet.p.valid});
+    out[first / 32] |= (packet.p.valid & ~packet.alive) << (first % 32);
   }
 }
 
-// Hits of one ray stay together, in no order: no packets, which would mix them.
+// Hits of one ray stay together, in no order: rays go alone.
 void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, FragmentList& out) {
+  if (data.nodes.empty()) return;
   const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
-  for (int i = 0; i < rays.count && !data.nodes.empty(); ++i) {
-    LaneRay ray;
-    if (!prepare_lane_ray(data, rays, i, ray)) continue;
-    AllVisitor visitor{batch, ray.exact, i, round_up(ray.exact.t_max), out};
-    traverse(data, 0, 0.0f, ray, visitor);
+  PacketTask packet(data, batch);
+  for (int first = 0; first < rays.count; first += kLanes) {
+    packet.start(first);
+    for (uint32_t rest = packet.p.valid; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      LaneRay ray;
+      take_lane(packet.lanes, i, ray);
+      AllVisitor visitor{batch, ray.exact, first + i, packet.lanes.limit[i], out};
+      traverse(data, 0, 0.0f, ray, visitor);
+    }
   }
 }
 

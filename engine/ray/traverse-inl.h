@@ -29,29 +29,6 @@ struct LaneRay {
   int near_row[3], far_row[3];    // rows of BvhNode::bounds
 };
 
-// With u = 2^-24 and M the largest distance along an axis from the origin to a vertex, x and y in lanes are off by at most 7 u M from
-// those in double, so x1 * y2 - y1 * x2 is off by at most 40 u M (|x1| + |y1| + |x2| + |y2| + 4 u M).
-HWY_INLINE bool prepare_lane_ray(const Bvh::Data& data, const RayBatch& rays, int i, LaneRay& ray) {
-  const float origin[3] = {rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]};
-  const float direction[3] = {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]};
-  if (!prepare_ray(origin, direction, rays.t_max[i], ray.exact)) return false;
-  ray.shear_x = static_cast<float>(ray.exact.shear_x);
-  ray.shear_y = static_cast<float>(ray.exact.shear_y);
-  float m = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float below = std::fabs(data.bounds_min[k] - origin[k]), above = std::fabs(data.bounds_max[k] - origin[k]);
-    m = below > m ? below : m;
-    m = above > m ? above : m;
-    ray.near_row[k] = ray.exact.negative[k] ? k + 3 : k;
-    ray.far_row[k] = ray.exact.negative[k] ? k : k + 3;
-  }
-  // Where products may overflow or lose bits to underflow, every lane goes to the exact test.
-  const bool in_range = m > 1e-15f && m < 1e18f;
-  ray.edge_slope = in_range ? 2.4e-6f * m : 0.0f;
-  ray.edge_offset = in_range ? 6e-13f * m * m : std::numeric_limits<float>::infinity();
-  return true;
-}
-
 // Which of kLanes8 children from `first` on the ray meets in [0, limit], and where it enters them: the arithmetic of slab().
 struct ChildLanes { Mask8 meets; F8 near; };
 HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {

@@ -41,7 +41,6 @@ struct ClosestVisitor {
   double best_t;
   uint32_t best;
   float limit;  // >= best_t
-  HWY_INLINE bool certain(uint32_t) const { return false; }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
     if (t > best_t || (t == best_t && primitive > best)) return false;
     if (!batch.accepts(index, ray.origin, primitive)) return false;
@@ -75,7 +74,6 @@ struct AllVisitor {
   int index;
   float limit;
   FragmentList& out;
-  HWY_INLINE bool certain(uint32_t) const { return false; }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
     if (t <= ray.t_max && batch.accepts(index, ray.origin, primitive)) {
       out.pixel.push_back(batch.rays.pixel[index]);
