@@ -16,16 +16,30 @@
 #include "hwy/foreach_target.h"
 #include "simd/dispatch.h"
 #include "simd/lanes-inl.h"
-#include "raster/coverage-inl.h"
+#include "raster/walk_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
-void scan(const ScreenTriangle& t, int y_begin, int y_end, int x_low, int x_high, int* first, int* count, int32_t* x0, int32_t* x1) {
-  RowSpans s;
-  scan_triangle(t, y_begin, y_end, x_low, x_high, s);
-  *first = s.first, *count = s.count;
-  for (int k = 0; k < s.count; ++k) x0[k] = s.x0[k], x1[k] = s.x1[k];
+// Pixels [x0[k], x1[k]) of row k of the 64 x 64 pixels from (column, row) on, as the walker of columns finds them; empty where not set.
+void scan(const ScreenTriangle& t, int column, int row, int32_t* x0, int32_t* x1) {
+  const TileFrame tile{column, row, kTileSize, kTileSize};
+  const CornerLanes corners = load_corners(tile, &t, I32::zero());
+  const BoxLanes box = box_of(tile, corners);
+  if (first_lane(box.x0) >= first_lane(box.x1) || first_lane(box.y0) >= first_lane(box.y1)) return;
+  WalkSetups setups;
+  setup_walk(corners, box, load_depth(tile, &t, I32::zero()), setups);
+  WalkRows rows;
+  const int y0 = setups.y0[0], count = setups.y1[0] - y0;
+  const uint64_t filled = scan_rows<false>(setups, 0, row + 0.5, rows);
+  for (int k = 0; k < count; ++k)
+    if ((filled >> k & 1u) != 0) x0[y0 + k] = column + rows.begin[k], x1[y0 + k] = x0[y0 + k] + rows.length[k];
+  if (count > kSmallRows) return;
+  WalkRows again;
+  const uint64_t same = scan_rows<true>(setups, 0, row + 0.5, again);
+  for (int k = 0; k < count; ++k)  // a difference shows as a row that nobody expects
+    if ((same >> k & 1u) != (filled >> k & 1u) || ((same >> k & 1u) != 0 && (again.begin[k] != rows.begin[k] || again.length[k] != rows.length[k])))
+      x0[y0 + k] = column - kTileSize, x1[y0 + k] = column + 2 * kTileSize;
 }
 }  // namespace HWY_NAMESPACE
 }  // namespace spanray
@@ -35,7 +49,7 @@ HWY_AFTER_NAMESPACE();
 namespace spanray {
 namespace {
 
-using ScanFn = void (*)(const ScreenTriangle&, int, int, int, int, int*, int*, int32_t*, int32_t*);
+using ScanFn = void (*)(const ScreenTriangle&, int, int, int32_t*, int32_t*);
 const ScanFn kScan[kIsaCount] = SPANRAY_KERNEL_TABLE(scan);
 
 struct Point { int32_t x, y; };
@@ -67,10 +81,7 @@ struct Block {
 
 Block scan_block(Isa isa, const ScreenTriangle& t, int column = 0, int row = 0) {
   Block block{column, row, {}, {}};
-  int first, count;
-  int32_t x0[kTileSize], x1[kTileSize];
-  kScan[isa_index(isa)](t, row, row + kTileSize, column, column + kTileSize, &first, &count, x0, x1);
-  for (int k = 0; k < count; ++k) block.x0[first - row + k] = x0[k], block.x1[first - row + k] = x1[k];
+  kScan[isa_index(isa)](t, column, row, block.x0, block.x1);
   return block;
 }
 

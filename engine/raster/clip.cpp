@@ -47,13 +47,12 @@ class TriangleClipper {
     } else {
       SnappedPoint p[3];
       for (int i = 0; i < 3; ++i) p[i] = {vertices_.x_24_8[t.vertex[i]], vertices_.y_24_8[t.vertex[i]]};
-      if (covers_a_sample(p)) emit(p, setup(t, primitive));
+      emit(p, setup(t, primitive));
     }
     ++(chunk_.triangles.size() > drawn_before ? counts_.triangles_drawn : counts_.triangles_empty);
   }
 
  private:
-
   // Edge-on triangles are no front faces: a ray misses them.
   bool is_back_face(const Triangle& t) const {
     return frame_.settings.culling == Culling::kBack && !(facing(*frame_.scene, t, frame_.primary.eye) > 0);
@@ -70,20 +69,18 @@ class TriangleClipper {
     const ScreenTriangle original = setup(t, primitive);
     for (int i = 0; i < pieces; ++i) {
       const SnappedPoint p[3] = {polygon[piece[i][0]], polygon[piece[i][1]], polygon[piece[i][2]]};
-      if (covers_a_sample(p)) emit(p, original);
+      emit(p, original);
     }
   }
 
-  // False if there is no area, or no sample of the picture within the bounding box (conservative with more than one a pixel).
-  bool covers_a_sample(const SnappedPoint p[3]) const {
+  // Pixels of the picture whose samples the bounding box may meet (exact with one a pixel): columns [x0, x1), rows [y0, y1).
+  struct PixelBox { int x0, x1, y0, y1; };
+  PixelBox pixels_of(const SnappedPoint p[3]) const {
     const auto [x_min, x_max] = std::minmax({p[0].x_24_8, p[1].x_24_8, p[2].x_24_8});
     const auto [y_min, y_max] = std::minmax({p[0].y_24_8, p[1].y_24_8, p[2].y_24_8});
     const SamplePlaces& s = frame_.places;
-    if (std::max(first_center(x_min - s.right), 0) >= std::min(first_center(x_max - s.left), frame_.grid.width)) return false;
-    if (std::max(first_center(y_min - s.bottom), 0) >= std::min(first_center(y_max - s.top), frame_.grid.height)) return false;
-    const int64_t area = int64_t{p[1].x_24_8 - p[0].x_24_8} * (p[2].y_24_8 - p[0].y_24_8) -
-                         int64_t{p[2].x_24_8 - p[0].x_24_8} * (p[1].y_24_8 - p[0].y_24_8);
-    return area != 0;
+    return {std::max(first_center(x_min - s.right), 0), std::min(first_center(x_max - s.left), frame_.grid.width),
+            std::max(first_center(y_min - s.bottom), 0), std::min(first_center(y_max - s.top), frame_.grid.height)};
   }
 
   // All of a screen triangle but its corners.
@@ -98,22 +95,17 @@ class TriangleClipper {
     return s;
   }
 
+  // Appends the piece unless it has no area or no sample.
   void emit(const SnappedPoint p[3], ScreenTriangle s) {
+    const PixelBox box = pixels_of(p);
+    const int64_t area = int64_t{p[1].x_24_8 - p[0].x_24_8} * (p[2].y_24_8 - p[0].y_24_8) -
+                         int64_t{p[2].x_24_8 - p[0].x_24_8} * (p[1].y_24_8 - p[0].y_24_8);
+    if (box.x0 >= box.x1 || box.y0 >= box.y1 || area == 0) return;
     for (int i = 0; i < 3; ++i) s.x_24_8[i] = p[i].x_24_8, s.y_24_8[i] = p[i].y_24_8;
+    const auto tile_of = [](int pixel) { return static_cast<uint32_t>(pixel / kTileSize); };
     chunk_.triangles.push_back(s);
-    chunk_.tile_box.push_back(tile_box(p));
+    chunk_.tile_box.push_back(pack_tile_box(tile_of(box.x0), tile_of(box.x1 - 1), tile_of(box.y0), tile_of(box.y1 - 1)));
     chunk_.has_translucent |= (s.flags & kMaterialTranslucent) != 0;
-  }
-
-  // Of a triangle that may cover a sample.
-  uint32_t tile_box(const SnappedPoint p[3]) const {
-    const auto [x_min, x_max] = std::minmax({p[0].x_24_8, p[1].x_24_8, p[2].x_24_8});
-    const auto [y_min, y_max] = std::minmax({p[0].y_24_8, p[1].y_24_8, p[2].y_24_8});
-    const SamplePlaces& s = frame_.places;
-    const auto first = [](int32_t v) { return static_cast<uint32_t>(std::max(first_center(v), 0) / kTileSize); };
-    const auto last = [](int32_t v, int size) { return static_cast<uint32_t>((std::min(first_center(v), size) - 1) / kTileSize); };
-    return pack_tile_box(first(x_min - s.right), last(x_max - s.left, frame_.grid.width), first(y_min - s.bottom),
-                         last(y_max - s.top, frame_.grid.height));
   }
 
   const Frame& frame_;

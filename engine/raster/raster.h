@@ -18,8 +18,8 @@ void bin_triangles(const Frame& frame, TileBins& bins);
 // (frame/samples.h; 0: the center). Called from a task.
 void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits& out, int place = 0);
 
-// Appends every fragment of translucent triangles that is not behind the opaque depth (>= passes) of the same place, in order of
-// primitives.
+// Appends every fragment of translucent triangles that is not behind the opaque depth (>= passes) of the same place: primitive by
+// primitive in their order, the pixels of one in an order that differs between instruction sets (composite() takes any).
 void rasterize_translucent(const Frame& frame, const TileBins& bins, int tile, const TileHits& opaque, FragmentList& out,
                            int place = 0);
 

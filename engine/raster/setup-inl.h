@@ -16,13 +16,13 @@ namespace HWY_NAMESPACE {
 
 // The tile that is drawn, seen at one place of its pixels (frame/samples.h). Rows and columns count from its first pixel.
 struct TileFrame {
-  int x, y, columns, rows;       // first pixel in the picture, and how many of them lie in it
-  int32_t offset_x, offset_y;    // of the place from the center, in 24.8
-
-  TileFrame(const Frame& frame, int tile, int place)
-      : x(frame.grid.x0(tile)), y(frame.grid.y0(tile)), columns(frame.grid.x1(tile) - x), rows(frame.grid.y1(tile) - y),
-        offset_x(frame.places.offset_x_24_8[place]), offset_y(frame.places.offset_y_24_8[place]) {}
+  int x, y, columns, rows;             // first pixel in the picture, and how many of them lie in it
+  int32_t offset_x = 0, offset_y = 0;  // of the place from the center, in 24.8
 };
+HWY_INLINE TileFrame tile_frame(const Frame& frame, int tile, int place) {
+  const int x = frame.grid.x0(tile), y = frame.grid.y0(tile);
+  return {x, y, frame.grid.x1(tile) - x, frame.grid.y1(tile) - y, frame.places.offset_x_24_8[place], frame.places.offset_y_24_8[place]};
+}
 
 // 24.8, from the tile's upper left corner, moved by the negated offset of the place: what the triangle covers at centers is then what
 // it covers at the place.

@@ -8,9 +8,7 @@
 #endif
 
 #include <algorithm>
-#include <utility>
 
-#include "raster/coverage-inl.h"
 #include "raster/walk_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +28,7 @@ HWY_INLINE I32 first_pixel(const WalkSetups::Line& line, int i, F64 row) {
   return first_pixel(f64(line.x[i]), f64(line.y[i]), f64(line.slope[i]), row);
 }
 
-// Returns the rows that have pixels, a bit each. The contract is that of scan_triangle. kSmall: at most kSmallRows rows.
+// Returns the rows that have pixels, a bit each. Exact: first_pixel. kSmall: at most kSmallRows rows.
 template <bool kSmall>
 HWY_INLINE uint64_t scan_rows(const WalkSetups& s, int i, double center_y, WalkRows& rows) {
   const I32 low = i32(s.x0[i]), high = i32(s.x1[i]), turn = i32(s.turn[i]), end = i32(s.y1[i]);

@@ -6,6 +6,7 @@
 #define SPANRAY_WALK_SETUP_INL_H_
 #endif
 
+#include "raster/coverage-inl.h"
 #include "raster/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,7 +16,7 @@ namespace HWY_NAMESPACE {
 // What the walker reads of kLanes triangles, one entry each.
 struct alignas(64) WalkSetups {
   static constexpr int kRoom = 16;
-  struct Line { double x[kRoom], y[kRoom], slope[kRoom]; };  // EdgeLine, from the tile's upper left corner
+  struct Line { double x[kRoom], y[kRoom], slope[kRoom]; };  // EdgeLines, from the tile's upper left corner
   Line whole, upper, lower;
   double depth0[kRoom], depth_dx[kRoom], depth_dy[kRoom];
   int32_t x0[kRoom], x1[kRoom], y0[kRoom], y1[kRoom];
@@ -24,11 +25,8 @@ struct alignas(64) WalkSetups {
   uint32_t primitive[kRoom];
 };
 
-HWY_INLINE void store_line(I32 x0, I32 y0, I32 x1, I32 y1, WalkSetups::Line& line) {
-  constexpr double kUnit = 1.0 / kSubpixels, kBias = 0x1p-33;  // as edge_line
-  (to_f64(x0) * f64(kUnit) - f64(kBias)).store(line.x);
-  (to_f64(y0 - i32(kSubpixels / 2)) * f64(kUnit)).store(line.y);
-  (to_f64(x1 - x0) / to_f64(max_(y1 - y0, i32(1)))).store(line.slope);
+HWY_INLINE void store_line(const EdgeLines& from, WalkSetups::Line& line) {
+  from.x.store(line.x), from.y.store(line.y), from.slope.store(line.slope);
 }
 
 HWY_INLINE void order_by_row(I32& xa, I32& ya, I32& xb, I32& yb) {
@@ -42,9 +40,9 @@ HWY_INLINE void setup_walk(CornerLanes c, const BoxLanes& box, const DepthLanes&
   order_by_row(c.x[0], c.y[0], c.x[1], c.y[1]);
   order_by_row(c.x[1], c.y[1], c.x[2], c.y[2]);
   order_by_row(c.x[0], c.y[0], c.x[1], c.y[1]);
-  store_line(c.x[0], c.y[0], c.x[2], c.y[2], out.whole);
-  store_line(c.x[0], c.y[0], c.x[1], c.y[1], out.upper);
-  store_line(c.x[1], c.y[1], c.x[2], c.y[2], out.lower);
+  store_line(edge_lines(c.x[0], c.y[0], c.x[2], c.y[2]), out.whole);
+  store_line(edge_lines(c.x[0], c.y[0], c.x[1], c.y[1]), out.upper);
+  store_line(edge_lines(c.x[1], c.y[1], c.x[2], c.y[2]), out.lower);
   first_centers(c.y[1]).store(out.turn);
   box.x0.store(out.x0), box.x1.store(out.x1), box.y0.store(out.y0), box.y1.store(out.y1);
   depth.depth0.store(out.depth0), depth.dx.store(out.depth_dx), depth.dy.store(out.depth_dy);

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 // each pixel that is not hidden yet. The result does not depend on it: a fragment wins if it is nearer, or as near and of a lower id.
 class Window {
  public:
-  Window(const Frame& frame, int tile, int place, TileHits& out) : frame_(frame), tile_(frame, tile, place), place_(place), out_(out) {
+  Window(const Frame& frame, int tile, int place, TileHits& out) : frame_(frame), tile_(tile_frame(frame, tile, place)), place_(place), out_(out) {
     tile_depth_.clear(tile_);
   }
   HWY_INLINE void add(const ScreenTriangle& t) {
