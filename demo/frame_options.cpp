@@ -6,7 +6,6 @@
 
 #include "core/counted.h"
 #include "core/number_text.h"
-#include "frame/samples.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {

@@ -93,7 +93,7 @@ bool samples_row(int& samples) {
   bool changed = false;
   ImGui::PushID("samples");
   label("samples");
-  for (const int count : {1, 4, 8, 16})
+  for (const int count : kSampleCounts)
     if (choice(std::to_string(count).c_str(), samples == count, count == 1) && samples != count) samples = count, changed = true;
   ImGui::PopID();
   return changed;

@@ -25,9 +25,7 @@ struct SamplePlaces {
   int end() const { return first() + count; }
 };
 
-inline bool sample_count_ok(int count) { return count == 1 || count == 4 || count == 8 || count == kMaxSamples; }
-
-// count: see sample_count_ok.
+// count: one of kSampleCounts (spanray/settings.h).
 SamplePlaces make_sample_places(int count);
 
 }  // namespace spanray

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/number_text.h"
-#include "frame/samples.h"
 #include "simd/isa.h"
 
 namespace spanray {

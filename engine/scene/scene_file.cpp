@@ -119,7 +119,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.word("culling", &s.culling);
   t.integer("max_bounces", 0, 64, &s.max_bounces);
   if (int samples = 0; t.integer("samples", 1, 16, &samples)) {
-    if (samples == 1 || samples == 4 || samples == 8 || samples == 16) s.samples = samples;
+    if (sample_count_ok(samples)) s.samples = samples;
     else t.fail("samples", "must be 1, 4, 8 or 16");
   }
   t.word("antialiasing", &s.antialiasing);

@@ -17,6 +17,13 @@ enum class Culling { kNone, kBack };
 // What is shaded where a pixel has several samples: each distinct surface that they see, once, or every sample on its own.
 enum class Antialiasing { kMultisample, kSupersample };
 
+inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
+constexpr bool sample_count_ok(int count) {
+  for (const int known : kSampleCounts)
+    if (count == known) return true;
+  return false;
+}
+
 struct Settings {
   int width = 1280, height = 720;  // pixels, 1 to 16384
   Shading shading = Shading::kPhong;
@@ -27,7 +34,7 @@ struct Settings {
   Filter filter = Filter::kTrilinear;
   Transparency transparency = Transparency::kScene;
   Culling culling = Culling::kNone;
-  int samples = 1;  // a pixel: 1, 4, 8 or 16, in the standard patterns of Direct3D 11 (docs/decisions/0007-samples.md)
+  int samples = 1;  // a pixel, one of kSampleCounts, in the standard patterns of Direct3D 11 (docs/decisions/0007-samples.md)
   Antialiasing antialiasing = Antialiasing::kMultisample;  // only with more than one sample
   bool textures = true;
   bool bump = true;
