@@ -1,28 +1,17 @@
-// Anti-aliasing of whole pictures: exact weights, no leaks, one picture from both engines, interiors as with one sample.
+// Anti-aliasing of made scenes: exact weights, no leaks. Shipped scenes: render_samples_scenes_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <set>
 
-#include "image/metrics.h"
-#include "raster/raster.h"
-#include "ray/bvh.h"
-#include "render/make_frame.h"
-#include "render/tile_samples.h"
+#include "frame/samples.h"
 #include "scene/scene_builder.h"
-#include "spanray/render.h"
 #include "support/random.h"
+#include "support/sample_pictures.h"
 #include "support/test_frame.h"
 
 namespace spanray {
 namespace {
-
-constexpr int kPatterns[] = {4, 8, 16};
-constexpr Antialiasing kModes[] = {Antialiasing::kMultisample, Antialiasing::kSupersample};
-constexpr Visibility kEngines[] = {Visibility::kRaster, Visibility::kRay};
-constexpr double kEdgePixels = 1.0 / 256;  // as in render_visibility_test
 
 // Emits `gray` and nothing else.
 Material glowing(float gray, float opacity = 1) {
@@ -58,16 +47,6 @@ Settings settings_with(int samples, Antialiasing mode, Visibility engine = Visib
   s.width = s.height = 32, s.threads = 1;
   s.samples = samples, s.antialiasing = mode, s.visibility = engine;
   return s;
-}
-
-Framebuffer render(const Scene& scene, const Camera& camera, const Settings& settings) {
-  Renderer renderer;
-  Framebuffer out;
-  FrameRequest request;
-  request.radiance = request.primitive = request.depth = true;
-  const auto stats = renderer.render(scene, camera, settings, out, request);
-  EXPECT_TRUE(stats) << stats.error().to_string();
-  return out;
 }
 
 template <class F> void for_all_ways(const F& visit) {
@@ -168,140 +147,6 @@ TEST(Antialiasing, T4_AScreenDoorTurnsSmooth) {
       ASSERT_EQ(sum, static_cast<float>(rank)) << samples;
     }
   });
-}
-
-// What every sample of a picture sees, by either engine: sample by sample.
-std::vector<std::vector<uint32_t>> ids_of_samples(const Scene& scene, const Camera& camera, const Settings& settings, Visibility engine) {
-  const SceneData& data = scene.data();
-  Parallel parallel(1);
-  Settings s = settings;
-  s.visibility = engine;
-  const Plan plan = make_plan(data, find_scene_use(data), s);
-  const Frame frame = make_frame(data, camera, s, plan, parallel);
-  ScreenVertices vertices;
-  TileBins bins;
-  FrameCounts counts;
-  transform_vertices(frame, vertices);
-  clip_triangles(frame, vertices, bins, counts);
-  bin_triangles(frame, bins);
-  const Bvh bvh = build_bvh(data, frame.material_flags, kMaterialTranslucent, 0, parallel);
-  std::vector<std::vector<uint32_t>> ids;
-  const size_t pixels = static_cast<size_t>(s.width) * static_cast<size_t>(s.height);
-  for (int place = frame.places.first(); place < frame.places.end(); ++place) {
-    std::vector<uint32_t>& id = ids.emplace_back(pixels);
-    if (engine == Visibility::kRay) {
-      std::vector<uint32_t> pixel;
-      for (size_t i = 0; i < pixels; ++i)
-        pixel.push_back(pack_pixel(static_cast<uint32_t>(i) % static_cast<uint32_t>(s.width), static_cast<uint32_t>(i) / static_cast<uint32_t>(s.width)));
-      RayBatch rays;
-      make_primary_batch(frame, pixel.data(), static_cast<int>(pixels), place, rays);
-      trace_closest(frame, bvh, rays, id.data());
-      continue;
-    }
-    const auto hits = std::make_unique<TileHits>();
-    for (int tile = 0; tile < frame.grid.count(); ++tile) {
-      rasterize_tile(frame, bins, tile, *hits, place);
-      for (int y = frame.grid.y0(tile); y < frame.grid.y1(tile); ++y)
-        for (int x = frame.grid.x0(tile); x < frame.grid.x1(tile); ++x)
-          id[static_cast<size_t>(y * s.width + x)] = hits->primitive[(y - frame.grid.y0(tile)) * kTileSize + x - frame.grid.x0(tile)];
-    }
-  }
-  return ids;
-}
-
-struct Picture {
-  Scene scene;
-  Camera camera;
-  Settings settings;
-};
-
-Picture picture_of(const char* name, int width, int height, int samples, Antialiasing mode) {
-  Result<LoadedScene> loaded = load_scene(std::string(SPANRAY_SOURCE_DIR) + "/assets/" + name);
-  EXPECT_TRUE(loaded) << loaded.error().to_string();
-  Picture p{loaded.value().scene, loaded.value().scene.cameras()[0], loaded.value().scene.settings()};
-  p.settings.width = width, p.settings.height = height, p.settings.samples = samples, p.settings.antialiasing = mode;
-  p.settings.threads = 1;
-  return p;
-}
-
-double edge_distance(const SceneData& scene, const PrimaryRays& rays, uint32_t primitive, double x, double y) {
-  const auto vertex = [&](int i) {
-    const float* p = scene.vertices[scene.triangles[primitive].vertex[i]].position;
-    return glm::dvec3(p[0], p[1], p[2]);
-  };
-  const glm::dvec3 d = rays.corner + rays.step_x * x + rays.step_y * y;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 n = cross3(vertex(i) - rays.eye, vertex((i + 1) % 3) - rays.eye);
-    const double gradient = std::hypot(dot3(rays.step_x, n), dot3(rays.step_y, n));
-    if (gradient > 0) least = std::min(least, std::fabs(dot3(d, n)) / gradient);
-  }
-  return least;
-}
-
-// Y13 with several samples: where all samples of a pixel see the same by both engines, and no translucent edge passes one, the
-// radiance is bit-equal.
-TEST(Antialiasing, Y13_RasterAndRaysGiveOnePicture) {
-  struct Case { const char* scene; int samples; Antialiasing mode; };
-  for (const Case& c : {Case{"spheres.toml", 4, Antialiasing::kMultisample}, Case{"gauze.toml", 8, Antialiasing::kMultisample},
-                        Case{"glass.toml", 4, Antialiasing::kMultisample}, Case{"glass.toml", 4, Antialiasing::kSupersample}}) {
-    Picture p = picture_of(c.scene, 160, 90, c.samples, c.mode);
-    Framebuffer frames[2];
-    std::vector<std::vector<uint32_t>> ids[2];
-    for (int i = 0; i < 2; ++i) {
-      p.settings.visibility = kEngines[i];
-      frames[i] = render(p.scene, p.camera, p.settings);
-      ids[i] = ids_of_samples(p.scene, p.camera, p.settings, kEngines[i]);
-    }
-    const PrimaryRays rays = make_primary_rays(p.camera, 160, 90);
-    const SamplePlaces places = make_sample_places(c.samples);
-    const SceneData& data = p.scene.data();
-    std::vector<uint32_t> translucent;
-    for (uint32_t i = 0; i < data.triangles.size(); ++i)
-      if (material_flags(data.materials[material_of(data.triangles[i])], p.settings) & kMaterialTranslucent) translucent.push_back(i);
-    size_t mixed = 0, differ = 0, colors = 0;
-    for (size_t i = 0; i < frames[0].primitive.size(); ++i) {
-      ASSERT_EQ(frames[0].primitive[i], ids[0][0][i]) << "the picture's ids are those of sample 0";
-      bool same_ids = true;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (int s = 0; s < c.samples; ++s) {
-        const bool same = ids[0][static_cast<size_t>(s)][i] == ids[1][static_cast<size_t>(s)][i];
-        same_ids = same_ids && same;
-        differ += !same;
-        mixed += ids[0][static_cast<size_t>(s)][i] != ids[0][0][i];
-      }
-      if (!same_ids || std::memcmp(&frames[0].radiance[3 * i], &frames[1].radiance[3 * i], 12) == 0) continue;
-      ++colors;
-      for (int place = places.first(); place < places.end(); ++place)
-        for (const uint32_t t : translucent)
-          nearest = std::min(nearest, edge_distance(data, rays, t, static_cast<double>(i % 160) + places.x[place], static_cast<double>(i / 160) + places.y[place]));
-      EXPECT_LE(nearest, kEdgePixels) << c.scene << ": color differs at " << i % 160 << "," << i / 160;
-    }
-    std::printf("%s, %d samples: %zu samples differ in id, %zu more pixels in color\n", c.scene, c.samples, differ, colors);
-    EXPECT_GT(mixed, 300u) << "no edges, no test";
-    EXPECT_LT(differ, frames[0].primitive.size() * static_cast<size_t>(c.samples) / 500);
-  }
-}
-
-// Multisampling changes edges only: where all samples see what the center sees, the picture is that of one sample, bit for bit.
-TEST(Antialiasing, InteriorsAreThoseOfOneSample) {
-  for (const int samples : kPatterns) {
-    const Picture p = picture_of("spheres.toml", 160, 90, samples, Antialiasing::kMultisample);
-    Settings one = p.settings;
-    one.samples = 1;
-    const Framebuffer many = render(p.scene, p.camera, p.settings), single = render(p.scene, p.camera, one);
-    const auto ids = ids_of_samples(p.scene, p.camera, p.settings, Visibility::kRaster);
-    size_t inside = 0;
-    for (size_t i = 0; i < single.primitive.size(); ++i) {
-      bool same = single.primitive[i] != kNoPrimitive;
-      for (const auto& id : ids) same = same && id[i] == single.primitive[i];
-      if (!same) continue;
-      ++inside;
-      ASSERT_EQ(0, std::memcmp(&many.radiance[3 * i], &single.radiance[3 * i], 12)) << i % 160 << "," << i / 160;
-      ASSERT_EQ(many.depth[i], single.depth[i]);
-    }
-    EXPECT_GT(inside, 1000u);
-  }
 }
 
 // One color a face: shading every sample gives what shading every face once gives.

@@ -11,37 +11,17 @@
 #include "math/vec.h"
 #include "scene/scene_data.h"
 #include "spanray/render.h"
+#include "support/edge_distance.h"
 
 namespace spanray {
 namespace {
 
-// Snapping moves an edge by at most sqrt(2)/512 pixel; the rest pays for rays rounded to float.
-constexpr double kEdgePixels = 1.0 / 256;
 constexpr double kDepthTie = 2e-6;  // relative: float depth of the z-buffer against float t of the tracer
-
-glm::dvec3 position(const SceneData& scene, const Triangle& t, int i) {
-  const float* p = scene.vertices[t.vertex[i]].position;
-  return {p[0], p[1], p[2]};
-}
-
-// Distance in pixels from a pixel center to the nearest of a triangle's (infinite) edge lines; linear edge functions, so
-// vertices behind the eye are no special case.
-double edge_distance(const SceneData& scene, const PrimaryRays& rays, uint32_t primitive, double x, double y) {
-  const Triangle& t = scene.triangles[primitive];
-  const glm::dvec3 d = rays.corner + rays.step_x * x + rays.step_y * y;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 n = cross3(position(scene, t, i) - rays.eye, position(scene, t, (i + 1) % 3) - rays.eye);
-    const double gradient = std::hypot(dot3(rays.step_x, n), dot3(rays.step_y, n));
-    if (gradient > 0) least = std::min(least, std::fabs(dot3(d, n)) / gradient);
-  }
-  return least;
-}
 
 double plane_depth(const SceneData& scene, const PrimaryRays& rays, uint32_t primitive, double x, double y) {
   const Triangle& t = scene.triangles[primitive];
-  const glm::dvec3 v0 = position(scene, t, 0);
-  const glm::dvec3 n = cross3(position(scene, t, 1) - v0, position(scene, t, 2) - v0);
+  const glm::dvec3 v0 = vertex_position(scene, t, 0);
+  const glm::dvec3 n = cross3(vertex_position(scene, t, 1) - v0, vertex_position(scene, t, 2) - v0);
   return dot3(v0 - rays.eye, n) / dot3(rays.corner + rays.step_x * x + rays.step_y * y, n);
 }
 
