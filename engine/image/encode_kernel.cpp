@@ -17,22 +17,20 @@ namespace HWY_NAMESPACE {
 // Input:    three arrays of count floats, any values.   Output: 4 * count bytes.
 // Contract: equal to srgb8_from_linear; reads and writes nothing past count.
 void encode_row(const float* const radiance[3], int count, const SrgbEncodeTable& table, uint8_t* rgba) {
-  for (int i = 0; i < count; i += kLanes) {
-    const int n = std::min(kLanes, count - i);
-    I32 code[3];
-    for (int k = 0; k < 3; ++k) {
-      float padded[kLanes] = {};
-      const float* source = radiance[k] + i;
-      if (n < kLanes) {
-        std::memcpy(padded, source, static_cast<size_t>(n) * sizeof(float));
-        source = padded;
-      }
-      code[k] = srgb8_from_linear(F32::load(source), table);
-    }
-    int32_t pixels[kLanes];
-    (code[0] | shift_left<8>(code[1]) | shift_left<16>(code[2]) | i32(0xff000000u)).store(pixels);
-    std::memcpy(rgba + 4 * static_cast<size_t>(i), pixels, 4 * static_cast<size_t>(n));
-  }
+  const auto encode = [&](const float* r, const float* g, const float* b, uint8_t* out) HWY_ATTR {
+    const I32 pixels = srgb8_from_linear(F32::load(r), table) | shift_left<8>(srgb8_from_linear(F32::load(g), table)) |
+                       shift_left<16>(srgb8_from_linear(F32::load(b), table)) | i32(0xff000000u);
+    pixels.store(reinterpret_cast<int32_t*>(out));
+  };
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes) encode(radiance[0] + i, radiance[1] + i, radiance[2] + i, rgba + 4 * static_cast<size_t>(i));
+  if (i >= count) return;
+  float padded[3][kLanes] = {};
+  const size_t left = static_cast<size_t>(std::min(kLanes, count - i));
+  for (int k = 0; k < 3; ++k) std::memcpy(padded[k], radiance[k] + i, left * sizeof(float));
+  alignas(4) uint8_t pixels[4 * kLanes];
+  encode(padded[0], padded[1], padded[2], pixels);
+  std::memcpy(rgba + 4 * static_cast<size_t>(i), pixels, 4 * left);
 }
 
 }  // namespace HWY_NAMESPACE

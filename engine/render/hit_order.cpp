@@ -25,36 +25,14 @@ uint32_t HitOrder::group_of(uint32_t primitive) {
   }
 }
 
-namespace {
-// Every second bit of a number below 2^32.
-int even_bits(uint32_t code) {
-  uint32_t value = 0;
-  for (int i = 0; i < 16; ++i) value |= (code >> (2 * i) & 1u) << i;
-  return static_cast<int>(value);
-}
-}  // namespace
-
-void HitOrder::make_curve(int count, int columns) {
-  if (columns == curve_columns_ && count == static_cast<int>(curve_.size())) return;
-  curve_columns_ = columns;
-  curve_.clear();
-  for (uint32_t code = 0; static_cast<int>(curve_.size()) < count; ++code) {
-    const int x = even_bits(code), y = even_bits(code >> 1), slot = y * columns + x;
-    if (x < columns && slot < count) curve_.push_back(static_cast<uint32_t>(slot));
-  }
-}
-
-void HitOrder::group(const uint32_t* primitive, int count, int columns, AlignedBuffer<uint32_t>& slot_of_hit) {
-  while (static_cast<int>(in_order_.size()) < count) in_order_.push_back(static_cast<uint32_t>(in_order_.size()));
-  if (columns != 0) make_curve(count, columns);
-  const uint32_t* const slot = columns != 0 ? curve_.data() : in_order_.data();
+void HitOrder::group(const uint32_t* primitive, int count, AlignedBuffer<uint32_t>& slot_of_hit) {
   runs_.clear();
   start_.clear();
   make_room(static_cast<size_t>(count));
   for (int begin = 0; begin < count;) {
-    const uint32_t p = primitive[slot[begin]];
+    const uint32_t p = primitive[begin];
     int end = begin + 1;
-    while (end < count && primitive[slot[end]] == p) ++end;
+    while (end < count && primitive[end] == p) ++end;
     if (p != kNoPrimitive) {
       const uint32_t length = static_cast<uint32_t>(end - begin), g = group_of(p);
       runs_.push_back({static_cast<uint32_t>(begin), length, g});
@@ -71,7 +49,7 @@ void HitOrder::group(const uint32_t* primitive, int count, int columns, AlignedB
   slot_of_hit.resize(hits);
   for (const Run& run : runs_) {
     uint32_t* const out = slot_of_hit.data() + start_[run.group];
-    for (uint32_t i = 0; i < run.length; ++i) out[i] = slot[run.begin + i];
+    for (uint32_t i = 0; i < run.length; ++i) out[i] = run.begin + i;
     start_[run.group] += run.length;
   }
 }

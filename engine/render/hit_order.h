@@ -11,13 +11,11 @@ namespace spanray {
 class HitOrder {
  public:
   HitOrder();
-  // Slots that hit something (primitive != kNoPrimitive): primitives in order of their first slot, slots of one in order. The order is
-  // along a Z-shaped curve over rows of `columns` slots (Morton 1966), so that neighbours in a vector are neighbours in the picture:
-  // their shadow rays then go through the same boxes. columns == 0: slots have no place, their numbers are the order.
+  // Slots that hit something (primitive != kNoPrimitive): primitives in order of their first slot, slots of one in order.
   // Contract: only the order of shading; an entry's surface and light do not depend on its place (shade/resolve_kernel.cpp).
-  void group(const uint32_t* primitive, int count, int columns, AlignedBuffer<uint32_t>& slot_of_hit);
+  void group(const uint32_t* primitive, int count, AlignedBuffer<uint32_t>& slot_of_hit);
   size_t memory_bytes() const {
-    return (curve_.capacity() + in_order_.capacity() + start_.capacity()) * sizeof(uint32_t) + runs_.capacity() * sizeof(Run) +
+    return start_.capacity() * sizeof(uint32_t) + runs_.capacity() * sizeof(Run) +
            table_.capacity() * sizeof(Entry);
   }
 
@@ -26,12 +24,8 @@ class HitOrder {
   struct Entry { uint32_t primitive, group, epoch; };  // of an older epoch: empty
   uint32_t group_of(uint32_t primitive);
   void make_room(size_t groups);
-  void make_curve(int count, int columns);
 
-  std::vector<uint32_t> curve_;   // slots in order, for curve_columns_
-  int curve_columns_ = 0;
-  std::vector<uint32_t> in_order_;  // 0, 1, 2 ...
-  std::vector<Run> runs_;         // neighbours on the curve of one primitive
+  std::vector<Run> runs_;         // neighbours of one primitive
   std::vector<uint32_t> start_;   // of each group: its number of slots, then its place in the order
   std::vector<Entry> table_;      // by hash of the primitive; at most half full
   uint32_t epoch_ = 0;

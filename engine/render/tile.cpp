@@ -27,8 +27,7 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   const StageTimer timer(w, TileStage::kRaster);
   if (job.bins != nullptr) {
     const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
-    for (int row = 0; row < chunk.y1 - chunk.y0; ++row)
-      std::copy_n(w.visible.primitive + (row0 + row) * kTileSize, chunk.columns, level.primitive.data() + row * chunk.columns);
+    w.pixel_order.from_rows(w.visible.primitive + row0 * kTileSize, kTileSize, level.primitive.data());
   } else if (job.frame.plan.primary_rays) {
     make_primary_batch(job.frame, level.pixel.data(), level.slots, 0, level.rays);
     trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
@@ -38,15 +37,27 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   }
 }
 
-// The slots that hit something, as a batch: shading works on these only.
+// The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture; hits of
+// other rays are grouped by what they hit.
 void compact_hits(TileWorker& w, Level& level, bool primary) {
-  w.order.group(level.primitive.data(), level.slots, primary && level.place.empty() ? level.columns : 0, level.slot_of_hit);
+  if (primary) {
+    level.slot_of_hit.resize(static_cast<size_t>(level.slots));
+    size_t hits = 0;
+    for (uint32_t slot = 0; slot < static_cast<uint32_t>(level.slots); ++slot) {
+      level.slot_of_hit[hits] = slot;
+      hits += level.primitive[slot] != kNoPrimitive;
+    }
+    level.slot_of_hit.resize(hits);
+  } else {
+    w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
+  }
   const int n = static_cast<int>(level.slot_of_hit.size());
   level.hits.resize(n, true);
   const uint32_t* const slots = level.slot_of_hit.data();
   std::copy_n(slots, n, level.hits.ray.data());
   const auto pick = [&](const AlignedBuffer<uint32_t>& from, AlignedBuffer<uint32_t>& to) {
-    for (size_t i = 0; i < static_cast<size_t>(n); ++i) to[i] = from[slots[i]];
+    if (primary && n == level.slots) std::copy_n(from.data(), n, to.data());  // each slot has a hit
+    else for (size_t i = 0; i < static_cast<size_t>(n); ++i) to[i] = from[slots[i]];
   };
   pick(level.pixel, level.hits.pixel);
   pick(level.primitive, level.hits.primitive);
@@ -64,14 +75,14 @@ void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary
   }
   light_surfaces(job, w, level.surfaces, level.hits, primary);
   const StageTimer timer(w, TileStage::kShade);
-  for (int c = 0; c < 3; ++c) std::fill_n(level.radiance[c].data(), level.slots, job.frame.scene->background[c]);
-  std::fill_n(level.opaque_t.data(), level.slots, kInfinity);
   const uint32_t* const slot_of_hit = level.slot_of_hit.data();
-  const auto scatter = [&](const float* from, float* to) {
+  const auto scatter = [&](const float* from, float miss, float* to) {
+    if (primary && level.hits.count == level.slots) return static_cast<void>(std::copy_n(from, level.slots, to));
+    std::fill_n(to, level.slots, miss);
     for (int i = 0; i < level.hits.count; ++i) to[slot_of_hit[i]] = from[i];
   };
-  for (int c = 0; c < 3; ++c) scatter(w.radiance[c].data(), level.radiance[c].data());
-  scatter(level.surfaces.t, level.opaque_t.data());
+  for (int c = 0; c < 3; ++c) scatter(w.radiance[c].data(), job.frame.scene->background[c], level.radiance[c].data());
+  scatter(level.surfaces.t, kInfinity, level.opaque_t.data());
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
@@ -84,7 +95,7 @@ void pick_fragments(const Chunk& chunk, TileWorker& w) {
     list.pixel.push_back(w.fragments.pixel[i]);
     list.ray.push_back(0);
     list.primitive.push_back(w.fragments.primitive[i]);
-    w.fragment_slot.push_back((y - chunk.y0) * chunk.columns + (x - chunk.x0));
+    w.fragment_slot.push_back(w.pixel_order.slot(x - chunk.x0, y - chunk.y0));
   }
 }
 
@@ -198,35 +209,65 @@ void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk)
   }
 }
 
-ChunkPixels pixels_of(const Level& level) {
-  return {{level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()}, level.opaque_t.data(), level.primitive.data()};
+ChunkPixels pixels_of(const Chunk& chunk, const Level& level, TileWorker& w) {
+  const size_t pixels = static_cast<size_t>(chunk.pixels());
+  const auto to_rows = [&](const auto& slots, auto& rows) {
+    rows.resize(pixels);
+    w.pixel_order.to_rows(slots.data(), chunk.columns, rows.data());
+    return rows.data();
+  };
+  return {{to_rows(level.radiance[0], w.row_radiance[0]), to_rows(level.radiance[1], w.row_radiance[1]), to_rows(level.radiance[2], w.row_radiance[2])},
+          to_rows(level.opaque_t, w.row_t), to_rows(level.primitive, w.row_primitive)};
 }
 ChunkPixels pixels_of(const SampleHits& s) {
   return {{s.radiance[0].data(), s.radiance[1].data(), s.radiance[2].data()}, s.front_t.data(), s.front.data()};
 }
 
-// Radiance of a chunk -> bytes, and the arrays that the caller asked for.
-void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
-  const StageTimer timer(w, TileStage::kEncode);
-  const bool samples = !level.place.empty();
-  if (samples) resolve_samples(chunk, level, w);
-  const ChunkPixels pixels = samples ? pixels_of(*w.samples) : pixels_of(level);
+// Radiance of a chunk -> bytes.
+void encode_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
+  const size_t width = static_cast<size_t>(job.frame.grid.width);
+  uint8_t* const out = job.out.color.rgba.data() + 4 * (static_cast<size_t>(chunk.y0) * width + static_cast<size_t>(chunk.x0));
+  if (level.place.empty()) {
+    const float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
+    w.encoded.resize(static_cast<size_t>(level.slots));
+    encode_row(job.frame.isa, radiance, level.slots, reinterpret_cast<uint8_t*>(w.encoded.data()));
+    w.pixel_order.to_rows(w.encoded.data(), job.frame.grid.width, reinterpret_cast<uint32_t*>(out));
+    return;
+  }
+  const size_t columns = static_cast<size_t>(chunk.columns);
+  for (size_t row = 0; row < static_cast<size_t>(chunk.y1 - chunk.y0); ++row) {
+    const auto& from = w.samples->radiance;
+    const float* radiance[3] = {from[0].data() + row * columns, from[1].data() + row * columns, from[2].data() + row * columns};
+    encode_row(job.frame.isa, radiance, chunk.columns, out + 4 * row * width);
+  }
+}
+
+// The arrays that the caller asked for.
+void write_extras(const FrameJob& job, const ChunkPixels& pixels, const Chunk& chunk) {
   for (int y = chunk.y0; y < chunk.y1; ++y) {
     const size_t slot = static_cast<size_t>((y - chunk.y0) * chunk.columns);
     const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.frame.grid.width) + static_cast<size_t>(chunk.x0);
-    const float* radiance[3] = {pixels.radiance[0] + slot, pixels.radiance[1] + slot, pixels.radiance[2] + slot};
-    encode_row(job.frame.isa, radiance, chunk.columns, job.out.color.rgba.data() + 4 * pixel);
-    if (!job.request.radiance && !job.request.depth && !job.request.primitive) continue;
     for (size_t i = 0; i < static_cast<size_t>(chunk.columns); ++i) {
       if (job.request.radiance)
-        for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = radiance[c][i];
+        for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = pixels.radiance[c][slot + i];
       // t of a miss is infinite: its depth is 0, the background's.
       if (job.request.depth) job.out.depth[pixel + i] = static_cast<float>(job.frame.primary.near_plane) / pixels.opaque_t[slot + i];
       if (job.request.primitive) job.out.primitive[pixel + i] = pixels.primitive[slot + i];
     }
   }
-  if (job.request.normal || job.request.uv) write_surfaces(job, level, chunk);
-  if (job.request.ladder != nullptr) mix_chunk(job, w, chunk, pixels);
+}
+
+void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
+  const StageTimer timer(w, TileStage::kEncode);
+  const bool samples = !level.place.empty();
+  if (samples) resolve_samples(chunk, level, w);
+  encode_chunk(job, w, level, chunk);
+  const FrameRequest& request = job.request;
+  if (request.normal || request.uv) write_surfaces(job, level, chunk);
+  if (!request.radiance && !request.depth && !request.primitive && request.ladder == nullptr) return;
+  const ChunkPixels pixels = samples ? pixels_of(*w.samples) : pixels_of(chunk, level, w);
+  write_extras(job, pixels, chunk);
+  if (request.ladder != nullptr) mix_chunk(job, w, chunk, pixels);
 }
 
 }  // namespace
@@ -250,12 +291,14 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
     level.resize(chunk.pixels(), job.frame.plan.translucents);
-    level.columns = chunk.columns;
-    for (int y = y0, i = 0; y < chunk.y1; ++y)
-      for (int x = chunk.x0; x < chunk.x0 + chunk.columns; ++x, ++i)
-        level.pixel[i] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
-    if (samples) find_sample_slots(job, chunk, w, level);
-    else find_primary_hits(job, chunk, w, level);
+    if (samples) {
+      find_sample_slots(job, chunk, w, level);
+    } else {
+      w.pixel_order.make(chunk.columns, chunk.y1 - chunk.y0);
+      const uint32_t first = pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(y0));
+      for (int i = 0; i < level.slots; ++i) level.pixel[i] = first + w.pixel_order.pixel()[static_cast<size_t>(i)];
+      find_primary_hits(job, chunk, w, level);
+    }
     shade_levels(job, w, chunk);
     w.counts.surfaces_shaded += static_cast<uint64_t>(level.hits.count);
     if (!samples) w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
@@ -281,8 +324,9 @@ size_t Level::memory_bytes() const {
 size_t TileWorker::memory_bytes() const {
   size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
                  surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
-                 fragment_surfaces.memory_bytes() + order.memory_bytes();
-  for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes();
+                 fragment_surfaces.memory_bytes() + order.memory_bytes() + pixel_order.memory_bytes() + row_t.bytes() + row_primitive.bytes() +
+                 encoded.bytes();
+  for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + row_radiance[c].bytes();
   if (samples) bytes += samples->memory_bytes();
   for (const auto& level : levels) bytes += level->memory_bytes();
   return bytes;

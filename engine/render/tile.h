@@ -7,6 +7,7 @@
 #include "frame/frame.h"
 #include "ray/bvh.h"
 #include "render/hit_order.h"
+#include "render/pixel_order.h"
 #include "render/tile_samples.h"
 #include "shade/light.h"
 #include "shade/surface.h"
@@ -25,8 +26,8 @@ struct Chunk {
 };
 
 // What a set of rays of one kind sees and sends back: level 0 are primary rays, level k the rays of the k-th bounce.
-// A *slot* is one ray of the level: a pixel of the chunk at level 0, or with several samples a pixel what
-// find_sample_slots (render/tile_samples.h) makes of them.
+// A *slot* is one ray of the level: at level 0 a pixel of the chunk, in the order of TileWorker::pixel_order, or with several samples
+// a pixel what find_sample_slots (render/tile_samples.h) makes of them.
 struct Level {
   RayBatch rays;                       // levels above 0, and level 0 when visibility is by rays
   AlignedBuffer<uint32_t> pixel;       // by slot
@@ -41,7 +42,6 @@ struct Level {
   AlignedBuffer<uint32_t> slot_of_hit;
   SurfaceBatch surfaces;
   int slots = 0;
-  int columns = 0;  // level 0 with one sample a pixel: slots are rows of so many pixels
 
   void resize(int n, bool translucents);
   size_t memory_bytes() const;
@@ -59,7 +59,10 @@ struct TileWorker {
   HitBatch fragment_hits;
   AlignedBuffer<int32_t> fragment_slot;
   SurfaceBatch fragment_surfaces;
-  HitOrder order;
+  PixelOrder pixel_order;                         // of the slots of level 0, with one sample a pixel
+  AlignedBuffer<float> row_radiance[3], row_t;    // its results row by row, where they are asked for
+  AlignedBuffer<uint32_t> row_primitive, encoded;
+  HitOrder order;                                 // of hits of bounce rays
   FrameCounts counts;
   std::array<double, kTileStageCount> seconds{};
   size_t memory_bytes() const;

@@ -46,10 +46,12 @@ void trace_layers(const FrameJob& job, const SampleHits& seen, FragmentList& out
 }
 
 // The other engine: traces a chunk once a sample.
-void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, const Level& level) {
+void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
   const StageTimer timer(w, TileStage::kRaster);
   SampleHits& seen = *w.samples;
   const SamplePlaces& places = job.frame.places;
+  for (int y = chunk.y0, i = 0; y < chunk.y1; ++y)
+    for (int x = chunk.x0; x < chunk.x0 + chunk.columns; ++x, ++i) level.pixel[i] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
   for (int s = 0; s < places.count; ++s) {
     make_primary_batch(job.frame, level.pixel.data(), chunk.pixels(), places.first() + s, seen.rays);
     seen.traced.resize(static_cast<size_t>(chunk.pixels()));
