@@ -17,6 +17,12 @@ struct PlanFlags {
   bool raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
+  uint32_t maps = 0;  // MaterialMaps that some material has
+};
+
+// A map_Ka that is the map_Kd is none of its own.
+enum MaterialMaps : uint32_t {
+  kMapAmbient = 1, kMapDiffuse = 2, kMapSpecular = 4, kMapShininess = 8, kMapEmission = 16, kMapOpacity = 32, kAllMaps = 63
 };
 
 // What a material means to visibility in this frame: Settings::transparency may override the material's own wish.

@@ -11,9 +11,17 @@ namespace {
 // How many used materials ask for what, settings not yet considered.
 struct Wants {
   int masked = 0, translucent = 0, mirror = 0, textured = 0, bumped = 0, emissive = 0, ambient = 0, specular = 0;
+  uint32_t maps = 0;
 };
 
 bool nonzero(const float* rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; }
+
+uint32_t maps_of(const Material& m) {
+  const auto bit = [](bool has, MaterialMaps map) { return has ? uint32_t{map} : 0u; };
+  return bit(m.map_ambient >= 0 && m.map_ambient != m.map_diffuse, kMapAmbient) | bit(m.map_diffuse >= 0, kMapDiffuse) |
+         bit(m.map_specular >= 0, kMapSpecular) | bit(m.map_shininess >= 0, kMapShininess) | bit(m.map_emission >= 0, kMapEmission) |
+         bit(m.map_opacity >= 0, kMapOpacity);
+}
 
 Wants find_wants(const SceneData& scene, const SceneUse& use, const std::vector<uint32_t>& material_flags) {
   Wants w;
@@ -24,8 +32,8 @@ Wants find_wants(const SceneData& scene, const SceneUse& use, const std::vector<
     w.translucent += (material_flags[i] & kMaterialTranslucent) != 0;
     // Translucent surfaces start no mirror rays (docs/decisions/0003-transparency.md).
     w.mirror += nonzero(m.mirror) && (material_flags[i] & kMaterialTranslucent) == 0;
-    w.textured += m.map_ambient >= 0 || m.map_diffuse >= 0 || m.map_specular >= 0 || m.map_shininess >= 0 || m.map_emission >= 0 ||
-                  m.map_opacity >= 0;
+    w.maps |= maps_of(m);
+    w.textured += maps_of(m) != 0;
     w.bumped += m.map_bump >= 0 || m.map_normal >= 0;
     w.emissive += nonzero(m.emission);
     w.ambient += nonzero(m.ambient);
@@ -84,6 +92,7 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                       "no material is masked");
   f.lit_vertices = lines.add("lit vertices", s.shading == Shading::kGouraud, "shading is not Gouraud", lit,
                              "Gouraud shading: vertices of visible triangles are lit once", "nothing is lit");
+  f.maps = w.maps;
   f.textures = lines.add("textures", s.textures, "switched off", w.textured, materials_text(w.textured, "with color or value maps"),
                          "no material has one");
   f.bump = lines.add("bump", s.bump && s.shading == Shading::kPhong, s.bump ? "only Phong shading bends normals" : "switched off",

@@ -123,6 +123,10 @@ TextureLoader::Loaded TextureLoader::load(const std::string& path, bool color, c
   if (raw.channels == 2 || raw.channels == 4)
     for (size_t i = static_cast<size_t>(raw.channels) - 1; i < raw.samples.size(); i += static_cast<size_t>(raw.channels))
       it->second.has_alpha = it->second.has_alpha || raw.samples[i] != opaque;
+  const Texture& made = scene_.textures.back();
+  const size_t pixels = static_cast<size_t>(made.width) * static_cast<size_t>(made.height);
+  const Texel* const texels = scene_.texels.data() + made.offset[0];
+  it->second.gray = std::all_of(texels, texels + pixels, [](const Texel& t) { return t.r == t.g && t.g == t.b; });
   it->second.texture = index.value();
   return it->second;
 }
@@ -141,6 +145,8 @@ int32_t TextureLoader::use(MtlMap slot, const MtlTexture& texture, const std::st
   TextureUse use = texture.use;
   use.texture = loaded.texture;
   if (slot == MtlMap::kD && use.channel < 0 && loaded.has_alpha) use.channel = 3;
+  // The luminance of gray is each of its channels: one is read faster than three.
+  if (!is_color(slot) && loaded.gray && (use.channel < 0 || use.channel == 4)) use.channel = 1;
   scene_.texture_uses.push_back(use);
   return static_cast<int32_t>(scene_.texture_uses.size() - 1);
 }

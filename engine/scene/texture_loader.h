@@ -34,7 +34,7 @@ class TextureLoader {
  private:
   struct Loaded {
     int32_t texture = -1;
-    bool has_alpha = false;
+    bool has_alpha = false, gray = false;
   };
   Loaded load(const std::string& path, bool color, const std::string& mtl_file, const MtlTexture& texture);
 

@@ -49,7 +49,7 @@ F32 mask_opacity(const Frame& frame, const HitLanes& hits, int32_t map, float fa
                                 transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal));
   UseLanes use = open_use(scene, i32(map), true, hits.valid, uv);
   use.level_256 = min_(use.level_256, i32(kMaskLastLevel * 256));
-  const F32 value = f32(factor) * sample_scalar(scene, use, frame.settings.filter);
+  const F32 value = f32(factor) * scalar_of(scene, use, sample<4>(scene, use, frame.settings.filter));
   return select(use.active, value, f32(factor));
 }
 

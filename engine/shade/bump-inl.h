@@ -39,13 +39,48 @@ HWY_INLINE TangentLanes make_tangents(const SceneData& scene, const UseLanes& us
 
 struct SlopeLanes { F32 s, t; };
 
-// Raw height difference over one texel of `level`, per texel of level 0.
+// Raw height of a texel. one_channel: all lanes name a single one.
+HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 index, I32 channel, bool one_channel) {
+  const uint32_t* words = reinterpret_cast<const uint32_t*>(scene.texels.data());
+  if (one_channel) {
+    const I32 word = gather(words, shift_left<1>(index) + shift_right<1>(channel));
+    return to_f32(shift_right_by(word, shift_left<4>(channel & i32(1))) & i32(0xffff));
+  }
+  RawSample raw;
+  read_texel<4>(words, index, raw.c);
+  return choose_channel(scene, use, raw);
+}
+
+// Raw height difference over one texel of `level`, per texel of level 0: of bilinear samples half a texel to either side. All four
+// lie among the 3 x 3 texels around the point; the two samples of a direction share their weights.
 [[maybe_unused]] static HWY_NOINLINE SlopeLanes level_slope(const SceneData& scene, const UseLanes& use, I32 level) {
-  const auto height = [&](int dx, int dy) HWY_ATTR {
-    return choose_channel(scene, use, sample_level<4>(scene, use, level, false, dx, dy));
+  const LevelPlace p = place_on_level(scene, use, level);
+  const I32 channel = use.word(scene, kUseChannel), byte = i32(255), half = i32(128);
+  const bool one_channel = all((channel > i32(-1)) & (channel < i32(4)));
+  const I32 x = p.x - i32(256), y = p.y - i32(256), fx = x & byte, fy = y & byte;  // half a texel for the center, half to the first sample
+  I32 column[3], row[3];
+  for (int k = 0; k < 3; ++k) {
+    column[k] = wrap(shift_right<8>(x) + i32(k), p.width, use);
+    row[k] = p.base + wrap(shift_right<8>(y) + i32(k), p.height, use) * p.width;
+  }
+  F32 h[3][3];
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) h[j][i] = read_height(scene, use, row[j] + column[i], channel, one_channel);
+  const F32 step = f32(0x1p-8f);
+  const auto blend = [](F32 f, F32 a, F32 b) HWY_ATTR { return mul_add(f, b - a, a); };
+  // Differences along a line of three, and which two of the lines lie around the point, how far from the first.
+  const auto along = [&](const F32 (&d)[3], I32 f) HWY_ATTR {
+    const Mask second = f > i32(127);
+    return blend(to_f32((f + half) & byte) * step, select(second, d[1], d[0]), select(second, d[2], d[1]));
   };
+  const F32 at_x = to_f32(fx) * step, at_y = to_f32(fy) * step;
+  F32 ds[3], dt[3];
+  for (int k = 0; k < 3; ++k) {
+    ds[k] = blend(at_x, h[k][1] - h[k][0], h[k][2] - h[k][1]);
+    dt[k] = blend(at_y, h[0][k] - h[1][k], h[1][k] - h[2][k]);  // rows go down, t up
+  }
   const F32 shrink = float_from_bits(shift_left<23>(i32(127) - level));
-  return {(height(128, 0) - height(-128, 0)) * shrink, (height(0, -128) - height(0, 128)) * shrink};  // rows go down, t up
+  return {along(ds, fy) * shrink, along(dt, fx) * shrink};
 }
 
 // n' = normalize(n - bm * (dh/ds * T + dh/dt * B)).

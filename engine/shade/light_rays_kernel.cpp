@@ -85,7 +85,7 @@ HWY_INLINE RayDirection ray_direction(const Frame& frame, const SurfaceBatch& s,
   const V3 d = -load3(s.view, i);
   if (hits.rays == nullptr) {
     const PrimaryRays& p = frame.primary;
-    const auto [x, y] = places_of(frame, hits, I32::load(s.pixel + i), i);
+    const auto [x, y] = places_of(I32::load(s.pixel + i), offsets_of(frame, hits, i));
     const V3 whole = {to_f32(f64(p.corner.x) + x * f64(p.step_x.x) + y * f64(p.step_y.x)),
                       to_f32(f64(p.corner.y) + x * f64(p.step_x.y) + y * f64(p.step_y.y)),
                       to_f32(f64(p.corner.z) + x * f64(p.step_x.z) + y * f64(p.step_y.z))};

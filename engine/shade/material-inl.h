@@ -1,4 +1,5 @@
-// Materials of resolved hits: constants of the material times its maps. Include inside a *_kernel.cpp.
+// Maps of the materials of resolved hits, one after the other for a block of surfaces. Include inside a
+// *_kernel.cpp.
 #if defined(SPANRAY_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_MATERIAL_INL_H_
 #undef SPANRAY_MATERIAL_INL_H_
@@ -6,129 +7,114 @@
 #define SPANRAY_MATERIAL_INL_H_
 #endif
 
-#include "shade/bump-inl.h"
+#include "shade/map_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 namespace surface_lanes {
 
-// What a group of lanes hands from stage to stage.
-struct Group {
-  const Frame& frame;
-  Mask valid;
-  RecordLanes material;
-  const UvLanes* uv;  // nullptr: no stage of this frame reads textures
-  int at;             // first entry in the batch
-};
-
-HWY_INLINE void put(const Group& g, float* field, F32 value) { select(g.valid, value, F32::zero()).store(field + g.at); }
-HWY_INLINE void put(const Group& g, float* const field[3], const V3f& v) {
-  put(g, field[0], v.x), put(g, field[1], v.y), put(g, field[2], v.z);
-}
-HWY_INLINE void put(const Group& g, uint32_t* field, I32 value) { select(g.valid, value, I32::zero()).store(field + g.at); }
-
-#define SPANRAY_WORD(field) static_cast<int>(offsetof(Material, field) / 4)
-
-HWY_INLINE F32 material_real(const Group& g, int k) {
-  return g.material.real(reinterpret_cast<const float*>(g.frame.scene->materials.data()), k);
-}
-HWY_INLINE V3f material_color(const Group& g, int k) {
-  return {material_real(g, k), material_real(g, k + 1), material_real(g, k + 2)};
-}
-HWY_INLINE I32 material_map(const Group& g, int k) {
-  return g.material.word(reinterpret_cast<const uint32_t*>(g.frame.scene->materials.data()), k);
-}
-HWY_INLINE V3f multiply(const V3f& a, const V3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-
-// color times the map in lanes that have it.
-HWY_INLINE V3f modulate(const V3f& color, const UseLanes& use, const V3f& map) {
-  return select(use.active, multiply(color, map), color);
+HWY_INLINE V3f load3(const Group& g, float* const field[3]) {
+  return {F32::load(field[0] + g.at), F32::load(field[1] + g.at), F32::load(field[2] + g.at)};
 }
 
-// Diffuse and ambient share map_Kd unless there is a map_Ka.
-void resolve_diffuse(const Group& g, const SurfaceBatch& out) {
-  const SceneData& scene = *g.frame.scene;
-  V3f diffuse = material_color(g, SPANRAY_WORD(diffuse)), ambient = material_color(g, SPANRAY_WORD(ambient));
-  if (g.uv != nullptr && g.frame.plan.textures) {
-    const Filter filter = g.frame.settings.filter;
-    const I32 map = material_map(g, SPANRAY_WORD(map_diffuse)), own = material_map(g, SPANRAY_WORD(map_ambient));
-    if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
-      const V3f color = sample_color(scene, use, filter);
-      diffuse = modulate(diffuse, use, color);
-      ambient = select(use.active & (own < i32(0)), multiply(ambient, color), ambient);
-    }
-    if (g.frame.plan.ambient && has_use(scene, own, g.valid)) {
-      const UseLanes use = open_use(scene, own, g.material.uniform, g.valid, *g.uv);
-      ambient = modulate(ambient, use, sample_color(scene, use, filter));
-    }
+// field times the map, in lanes that have it.
+HWY_INLINE void modulate(const Group& g, Mask active, float* const field[3], const V3f& map) {
+  const V3f color = load3(g, field);
+  put(g, field, select(active, V3f{color.x * map.x, color.y * map.y, color.z * map.z}, color));
+}
+
+// Diffuse and ambient share map_Kd unless there is another map_Ka.
+HWY_INLINE void modulate_diffuse(const SurfaceBlock& block, MapBlock& samples) {
+  const SceneData& scene = *block.frame.scene;
+  const PlanFlags& plan = block.frame.plan;
+  const SurfaceBatch& out = block.out;
+  if ((plan.maps & kMapDiffuse) != 0 && find_samples(block, SPANRAY_WORD(map_diffuse), samples)) {
+    read_samples<3>(block, SPANRAY_WORD(map_diffuse), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      const V3f color = color_of(scene, map, raw);
+      modulate(g, map.active, out.diffuse, color);
+      if (!plan.ambient) return;
+      const I32 own = material_map(g, SPANRAY_WORD(map_ambient));
+      modulate(g, map.active & ((own < i32(0)) | (own == material_map(g, SPANRAY_WORD(map_diffuse)))), out.ambient, color);
+    });
   }
-  const V3f zero{F32::zero(), F32::zero(), F32::zero()};
-  put(g, out.diffuse, diffuse);
-  put(g, out.ambient, g.frame.plan.ambient ? ambient : zero);
+  if (plan.ambient && (plan.maps & kMapAmbient) != 0 && find_samples(block, SPANRAY_WORD(map_ambient), samples, SPANRAY_WORD(map_diffuse))) {
+    read_samples<3>(block, SPANRAY_WORD(map_ambient), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(g, map.active, out.ambient, color_of(scene, map, raw));
+    });
+  }
 }
 
 // Specular and mirror share map_Ks: the mirror weight comes from Ks.
-void resolve_specular(const Group& g, const SurfaceBatch& out) {
-  const SceneData& scene = *g.frame.scene;
-  const PlanFlags& plan = g.frame.plan;
-  const V3f zero{F32::zero(), F32::zero(), F32::zero()};
-  V3f specular = plan.specular ? material_color(g, SPANRAY_WORD(specular)) : zero;
-  V3f mirror = plan.bounces ? material_color(g, SPANRAY_WORD(mirror)) : zero;
-  F32 shininess = plan.specular ? material_real(g, SPANRAY_WORD(shininess)) : zero.x;
-  if (g.uv != nullptr && plan.textures && (plan.specular || plan.bounces)) {
-    const I32 map = material_map(g, SPANRAY_WORD(map_specular)), exponent_map = material_map(g, SPANRAY_WORD(map_shininess));
-    if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
-      const V3f color = sample_color(scene, use, g.frame.settings.filter);
-      specular = modulate(specular, use, color);
-      mirror = modulate(mirror, use, color);
-    }
-    if (plan.specular && has_use(scene, exponent_map, g.valid)) {
-      const UseLanes use = open_use(scene, exponent_map, g.material.uniform, g.valid, *g.uv);
-      const F32 scaled = shininess * sample_scalar(scene, use, g.frame.settings.filter);
-      shininess = select(use.active, clamp_(scaled, zero.x, f32(1e4f)), shininess);
-    }
+HWY_INLINE void modulate_specular(const SurfaceBlock& block, MapBlock& samples) {
+  const SceneData& scene = *block.frame.scene;
+  const PlanFlags& plan = block.frame.plan;
+  const SurfaceBatch& out = block.out;
+  if ((plan.specular || plan.bounces) && (plan.maps & kMapSpecular) != 0 && find_samples(block, SPANRAY_WORD(map_specular), samples)) {
+    read_samples<3>(block, SPANRAY_WORD(map_specular), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      const V3f color = color_of(scene, map, raw);
+      modulate(g, map.active, out.specular, color);
+      modulate(g, map.active, out.mirror, color);
+    });
   }
-  put(g, out.specular, specular);
-  put(g, out.mirror, mirror);
-  put(g, out.shininess, shininess);
+  if (plan.specular && (plan.maps & kMapShininess) != 0 && find_samples(block, SPANRAY_WORD(map_shininess), samples)) {
+    read_samples<4>(block, SPANRAY_WORD(map_shininess), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      const F32 shininess = F32::load(out.shininess + g.at);
+      put(g, out.shininess, select(map.active, clamp_(shininess * scalar_of(scene, map, raw), F32::zero(), f32(1e4f)), shininess));
+    });
+  }
 }
 
-void resolve_emission_and_opacity(const Group& g, const SurfaceBatch& out) {
-  const SceneData& scene = *g.frame.scene;
-  V3f emission{F32::zero(), F32::zero(), F32::zero()};
-  if (g.frame.plan.emission) {
-    emission = material_color(g, SPANRAY_WORD(emission));
-    const I32 map = material_map(g, SPANRAY_WORD(map_emission));
-    if (g.uv != nullptr && g.frame.plan.textures && has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
-      emission = modulate(emission, use, sample_color(scene, use, g.frame.settings.filter));
-    }
-  }
-  F32 opacity = material_real(g, SPANRAY_WORD(opacity));
-  if (g.uv != nullptr && g.frame.plan.translucents) {
-    const I32 map = material_map(g, SPANRAY_WORD(map_opacity));
-    if (has_use(scene, map, g.valid)) {
-      const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, *g.uv);
-      const F32 scaled = opacity * sample_scalar(scene, use, g.frame.settings.filter);
-      opacity = select(use.active, clamp_(scaled, F32::zero(), f32(1.0f)), opacity);
-    }
-  }
-  put(g, out.emission, emission);
-  put(g, out.opacity, opacity);
+HWY_INLINE void modulate_emission(const SurfaceBlock& block, MapBlock& samples) {
+  const SceneData& scene = *block.frame.scene;
+  if (!block.frame.plan.emission || (block.frame.plan.maps & kMapEmission) == 0) return;
+  if (!find_samples(block, SPANRAY_WORD(map_emission), samples)) return;
+  read_samples<3>(block, SPANRAY_WORD(map_emission), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+    modulate(g, map.active, block.out.emission, color_of(scene, map, raw));
+  });
 }
 
-HWY_INLINE V3f bumped_normal(const Group& g, V3f normal) {
+HWY_INLINE void modulate_opacity(const SurfaceBlock& block, MapBlock& samples) {
+  const SceneData& scene = *block.frame.scene;
+  if (!block.frame.plan.translucents || (block.frame.plan.maps & kMapOpacity) == 0) return;
+  if (!find_samples(block, SPANRAY_WORD(map_opacity), samples)) return;
+  read_samples<4>(block, SPANRAY_WORD(map_opacity), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+    const F32 opacity = F32::load(block.out.opacity + g.at);
+    put(g, block.out.opacity, select(map.active, clamp_(opacity * scalar_of(scene, map, raw), F32::zero(), f32(1.0f)), opacity));
+  });
+}
+
+HWY_INLINE V3f bumped_normal(const Group& g, const UvLanes& uv, V3f normal) {
   const SceneData& scene = *g.frame.scene;
   const I32 heights = material_map(g, SPANRAY_WORD(map_bump)), normals = material_map(g, SPANRAY_WORD(map_normal));
   const Filter filter = g.frame.settings.filter;
   if (has_use(scene, heights, g.valid))
-    normal = apply_height_map(scene, open_use(scene, heights, g.material.uniform, g.valid, *g.uv), filter, *g.uv, normal);
+    normal = apply_height_map(scene, open_use(scene, heights, g.material.uniform, g.valid, uv), filter, uv, normal);
   if (has_use(scene, normals, g.valid))
-    normal = apply_normal_map(scene, open_use(scene, normals, g.material.uniform, g.valid, *g.uv), filter, *g.uv, normal);
+    normal = apply_normal_map(scene, open_use(scene, normals, g.material.uniform, g.valid, uv), filter, uv, normal);
   return normal;
+}
+
+// Interpolated normals -> shading normals.
+HWY_INLINE void bump_normals(const SurfaceBlock& block) {
+  for (int i = 0; i < block.count; i += kLanes) {
+    const Group g = group_of(block, i);
+    if (!any(g.valid)) continue;
+    const V3f normal = bumped_normal(g, block.uv.load(i, true), load3(g, block.out.normal));
+    put(g, block.out.normal, clamp_to_horizon(normal, load3(g, block.out.geometric_normal)));
+  }
+}
+
+// What the maps do to surfaces with the constants of their materials.
+void apply_maps(const SurfaceBlock& block) {
+  MapBlock samples;
+  if (block.frame.plan.bump) bump_normals(block);
+  if (block.frame.plan.textures) {
+    modulate_diffuse(block, samples);
+    modulate_specular(block, samples);
+    modulate_emission(block, samples);
+  }
+  modulate_opacity(block, samples);
 }
 
 #undef SPANRAY_WORD

@@ -13,14 +13,19 @@ HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 
-struct PlaceLanes { F64 x, y; };  // in pixels
+struct OffsetLanes { F32 x, y; };  // from the upper left corner of a pixel, in pixels: exact
 
-// Of entries at .. at + kLanes - 1 of primary hits, whose pixels are given.
-HWY_INLINE PlaceLanes places_of(const Frame& frame, const HitBatch& hits, I32 pixel, int at) {
-  const F64 x = to_f64(pixel & i32(0xffff)), y = to_f64(shift_right_logical<16>(pixel));
-  if (hits.place.empty()) return {x + f64(0.5), y + f64(0.5)};
+// Of entries at .. at + kLanes - 1 of primary hits.
+HWY_INLINE OffsetLanes offsets_of(const Frame& frame, const HitBatch& hits, int at) {
+  if (hits.place.empty()) return {f32(0.5f), f32(0.5f)};
   const I32 place = I32::load(hits.place.data() + at) & i32(kPlaceMask);  // entries past the last hold anything
-  return {x + gather(frame.places.x, place), y + gather(frame.places.y, place)};
+  return {to_f32(gather(frame.places.x, place)), to_f32(gather(frame.places.y, place))};
+}
+
+// Where in the picture these are.
+struct PlaceLanes { F64 x, y; };
+HWY_INLINE PlaceLanes places_of(I32 pixel, const OffsetLanes& offset) {
+  return {to_f64(pixel & i32(0xffff)) + to_f64(offset.x), to_f64(shift_right_logical<16>(pixel)) + to_f64(offset.y)};
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -14,9 +14,10 @@ namespace spanray {
 namespace HWY_NAMESPACE {
 namespace surface_lanes {
 
-// uv of the mesh at the hit, before scale and offset of a use, and how it moves with a pixel step.
+// uv of the mesh at the hit, before scale and offset of a use, and how it moves with a pixel step. Its whole part, or most of it, stands
+// apart, so that repeated textures keep their digits: u is whole_u + u.
 struct UvLanes {
-  F64 u, v;
+  F32 u, v, whole_u, whole_v;
   F32 du_dx, dv_dx, du_dy, dv_dy;
   V3f tangent_u, tangent_v;  // unit, along growing u and v; zero where the triangle has no area in space or uv. Only with plan.bump.
 };
@@ -24,12 +25,26 @@ struct UvLanes {
 struct PointLanes {
   V3f position, weight, view, geometric, normal;  // as SurfaceBatch
   F32 position_error, t;
-  V3d dpdx, dpdy;  // only with plan.bounces
+  V3f dpdx, dpdy;  // only with plan.bounces
   UvLanes uv;      // only if reads_textures
   I32 material;
 };
 
 HWY_INLINE bool reads_textures(const Frame& frame) { return frame.plan.textures || frame.plan.bump || frame.plan.translucents; }
+
+// a - floor(a), in [0, 1]; 0 for NaN and where doubles have no fraction left.
+HWY_INLINE F64 fraction(F64 a) {
+  F64 f;
+  for (int h = 0; h < kHalves; ++h) f.v[h] = hn::Sub(a.v[h], hn::Floor(a.v[h]));
+  return select_lt(abs_(a), f64(2251799813685248.0), f, f64(0.0));
+}
+
+// floor(a), rounded to float, and fraction(a).
+struct SplitLanes { F32 whole, rest; };
+HWY_INLINE SplitLanes split(F64 a) {
+  const F64 rest = fraction(a);
+  return {to_f32(a - rest), to_f32(rest)};
+}
 
 // Texture coordinates of vertex 0, and what the weights 1 and 2 add: equal corners give exactly their value.
 struct CornerUv { F64 u0, v0, du1, du2, dv1, dv2; };

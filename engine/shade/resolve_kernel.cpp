@@ -25,9 +25,8 @@ void store_zeros(const Group& g, const SurfaceBatch& out) {
 }
 
 // Footprint, held below the square root of the largest float so that its length is finite.
-void store_footprint(const Group& g, float* const field[3], const V3d& derivative) {
+void store_footprint(const Group& g, float* const field[3], const V3f& d) {
   const F32 limit = f32(0x1p62f);
-  const V3f d = to_f32(derivative);
   put(g, field, {clamp_(d.x, -limit, limit), clamp_(d.y, -limit, limit), clamp_(d.z, -limit, limit)});
 }
 
@@ -48,10 +47,10 @@ HitLanes load_hits(const HitBatch& hits, int at) {
   return h;
 }
 
-// Everything about kLanes hits of rays that are not primary.
-HWY_INLINE PointLanes secondary_point(const Frame& frame, const HitLanes& hits) {
+// Everything about kLanes hits of any rays, each from its own setup in double. differentials(): only called where they are used.
+template <class Differentials>
+HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const RayLanes& ray, const Differentials& differentials) {
   const SceneData& scene = *frame.scene;
-  const RayLanes ray = load_rays(frame, hits);
   const TriangleLanes t = load_triangles(scene, hits);
   const SurfaceLanes s = resolve_lanes(ray, t);
   const F64 distance = hit_t(s, ray);
@@ -71,18 +70,44 @@ HWY_INLINE PointLanes secondary_point(const Frame& frame, const HitLanes& hits) 
   if (frame.settings.shading != Shading::kFlat)
     point.normal = interpolated_normal(corner_normals(scene, t, point.geometric), point.weight.y, point.weight.z, point.geometric);
   if (reads_textures(frame) || frame.plan.bounces) {
-    const DifferentialLanes d = load_differentials(frame, hits);
-    point.dpdx = transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal);
-    point.dpdy = transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal);
-    if (reads_textures(frame)) point.uv = resolve_uv(frame, t, s, point.dpdx, point.dpdy);
+    const DifferentialLanes d = differentials();
+    const V3d dpdx = transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal);
+    const V3d dpdy = transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal);
+    if (reads_textures(frame)) point.uv = resolve_uv(frame, t, s, dpdx, dpdy);
+    point.dpdx = to_f32(dpdx), point.dpdy = to_f32(dpdy);
   }
   point.material = t.bits & i32(kTriangleMaterialMask);
   return point;
 }
 
-void store_surface(const Frame& frame, const HitBatch& hits, int at, Mask valid, const PointLanes& point, SurfaceBatch& out) {
-  Group g{frame, valid, {}, reads_textures(frame) ? &point.uv : nullptr, at};
-  g.material = record_lanes(point.material, kMaterialStride, all(point.material == i32(first_lane(point.material))));
+// Lanes of primary hits that planes do not serve (primary_point). t is the view depth of the clamped point.
+HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const OffsetLanes& offset, Mask good, PointLanes& point) {
+  const PrimaryRays& p = frame.primary;
+  const auto [x, y] = places_of(hits.pixel, offset);
+  const RayLanes ray = {broadcast(p.eye), broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y};
+  const V3d zero{f64(0.0), f64(0.0), f64(0.0)};
+  const F64 side = f64(frame.footprint);
+  PointLanes odd = point_of(frame, hits, ray, [&]() HWY_ATTR {
+    return DifferentialLanes{zero, zero, broadcast(p.step_x) * side, broadcast(p.step_y) * side};
+  });
+  odd.t = to_f32(dot(to_f64(odd.position) - broadcast(p.eye), broadcast(p.forward)));
+  const auto take = [&](auto& field, const auto& other) HWY_ATTR { field = select(good, field, other); };
+  take(point.position, odd.position), take(point.position_error, odd.position_error), take(point.t, odd.t);
+  take(point.weight, odd.weight), take(point.view, odd.view), take(point.geometric, odd.geometric), take(point.normal, odd.normal);
+  if (frame.plan.bounces) take(point.dpdx, odd.dpdx), take(point.dpdy, odd.dpdy);
+  if (!reads_textures(frame)) return;
+  UvLanes& uv = point.uv;
+  take(uv.u, odd.uv.u), take(uv.v, odd.uv.v), take(uv.whole_u, odd.uv.whole_u), take(uv.whole_v, odd.uv.whole_v);
+  take(uv.du_dx, odd.uv.du_dx), take(uv.dv_dx, odd.uv.dv_dx), take(uv.du_dy, odd.uv.du_dy), take(uv.dv_dy, odd.uv.dv_dy);
+  if (frame.plan.bump) take(uv.tangent_u, odd.uv.tangent_u), take(uv.tangent_v, odd.uv.tangent_v);
+}
+
+// Everything but what maps say.
+void store_point(SurfaceBlock& block, const HitBatch& hits, int i, Mask valid, const PointLanes& point) {
+  const Frame& frame = block.frame;
+  const SurfaceBatch& out = block.out;
+  const bool one_material = all(point.material == i32(first_lane(point.material)));
+  const Group g{frame, valid, record_lanes(point.material, kMaterialStride, one_material), block.begin + i};
   put(g, out.position, point.position);
   put(g, out.position_error, point.position_error);
   put(g, out.t, point.t);
@@ -95,36 +120,47 @@ void store_surface(const Frame& frame, const HitBatch& hits, int at, Mask valid,
     put(g, out.dpdx, none);
     put(g, out.dpdy, none);
   }
-  put(g, out.pixel, I32::load(hits.pixel.data() + at));
-  put(g, out.ray, secondary(hits.rays) != nullptr ? I32::load(hits.ray.data() + at) : i32(0));
-  put(g, out.primitive, I32::load(hits.primitive.data() + at));
+  put(g, out.pixel, I32::load(hits.pixel.data() + g.at));
+  put(g, out.ray, secondary(hits.rays) != nullptr ? I32::load(hits.ray.data() + g.at) : i32(0));
+  put(g, out.primitive, I32::load(hits.primitive.data() + g.at));
   put(g, out.material, point.material);
   put(g, out.valid, i32(1));
   put(g, out.view, point.view);
   put(g, out.geometric_normal, point.geometric);
-  const V3f normal = frame.plan.bump ? bumped_normal(g, point.normal) : point.normal;
-  put(g, out.normal, clamp_to_horizon(normal, point.geometric));
-  resolve_diffuse(g, out);
-  resolve_specular(g, out);
-  resolve_emission_and_opacity(g, out);
+  put(g, out.normal, frame.plan.bump ? point.normal : clamp_to_horizon(point.normal, point.geometric));
+  put_constants(g, out);
+  if (reads_textures(frame)) block.uv.store(i, point.uv, frame.plan.bump);
 }
 
-void resolve_primary(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
-  SetupBlock block;
-  for (int begin = 0; begin < hits.count; begin += kBlockHits) {
-    const int count = hits.count - begin < kBlockHits ? hits.count - begin : kBlockHits;
-    set_up_block(frame, hits, begin, count, block);
-    for (int i = 0; i < count; i += kLanes) {
-      const int at = begin + i;
-      const Mask valid = first_lanes(count - i) & (I32::load(hits.primitive.data() + at) != i32(kNoPrimitive));
-      if (!any(valid)) {
-        store_zeros(Group{frame, valid, {}, nullptr, at}, out);
-        continue;
-      }
-      const PlaceLanes place = places_of(frame, hits, I32::load(hits.pixel.data() + at), at);
-      store_surface(frame, hits, at, valid, primary_point(frame, load_setup(block, i), place), out);
+// find(lanes, i, point): the points of entries i .. of the block.
+template <class Find> HWY_INLINE void store_points(SurfaceBlock& block, const HitBatch& hits, const Find& find) {
+  for (int i = 0; i < block.count; i += kLanes) {
+    const HitLanes lanes = load_hits(hits, block.begin + i);
+    if (!any(lanes.valid)) {
+      store_zeros(Group{block.frame, lanes.valid, {}, block.begin + i}, block.out);
+      continue;
     }
+    PointLanes point;
+    find(lanes, i, point);
+    store_point(block, hits, i, lanes.valid, point);
   }
+}
+
+void resolve_primary(SurfaceBlock& block, const HitBatch& hits, PlaneBlock& planes) {
+  const Frame& frame = block.frame;
+  set_up_block(frame, hits, block.begin, block.count, planes);
+  store_points(block, hits, [&](const HitLanes& lanes, int i, PointLanes& point) HWY_ATTR {
+    const OffsetLanes offset = offsets_of(frame, hits, block.begin + i);
+    const Mask good = primary_point(frame, planes, i, lanes.pixel, offset, point);
+    if (any(and_not(good, lanes.valid))) resolve_odd(frame, lanes, offset, good, point);
+  });
+}
+
+void resolve_secondary(SurfaceBlock& block, const HitBatch& hits) {
+  const Frame& frame = block.frame;
+  store_points(block, hits, [&](const HitLanes& lanes, int, PointLanes& point) HWY_ATTR {
+    point = point_of(frame, lanes, load_rays(frame, lanes), [&]() HWY_ATTR { return load_differentials(frame, lanes); });
+  });
 }
 
 }  // namespace
@@ -134,11 +170,14 @@ void resolve_primary(const Frame& frame, const HitBatch& hits, SurfaceBatch& out
 // Input:    hits.count entries; out.count == hits.count.   Output: every field of out.
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
-  if (secondary(hits.rays) == nullptr && !frame.scene->triangles.empty()) return resolve_primary(frame, hits, out);
-  for (int at = 0; at < hits.count; at += kLanes) {
-    const HitLanes lanes = load_hits(hits, at);
-    if (any(lanes.valid)) store_surface(frame, hits, at, lanes.valid, secondary_point(frame, lanes), out);
-    else store_zeros(Group{frame, lanes.valid, {}, nullptr, at}, out);
+  const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
+  SurfaceBlock block{frame, out, 0, 0, {}};
+  PlaneBlock planes;
+  for (; block.begin < hits.count; block.begin += kBlockHits) {
+    block.count = hits.count - block.begin < kBlockHits ? hits.count - block.begin : kBlockHits;
+    if (primary) resolve_primary(block, hits, planes);
+    else resolve_secondary(block, hits);
+    apply_maps(block);
   }
 }
 

@@ -157,6 +157,8 @@ HWY_INLINE I32 to_i32(F32 a) {
 }
 // Truncates toward zero; |a| < 2^31.
 HWY_INLINE I32 to_i32_small(F32 a) { return {hn::ConvertTo(DI(), a.v)}; }
+// Nearest integer, halves to even; |a| <= 2^22, anything for others. The sum's last place is worth 1: it rounds there.
+HWY_INLINE I32 nearest_i32_small(F32 a) { return bits_of(a + f32(12582912.0f)) - i32(0x4b400000); }  // 1.5 * 2^23
 // Largest integer <= a; |a| < 2^31.
 HWY_INLINE I32 floor_i32_small(F32 a) {
   const I32 t = to_i32_small(a);

@@ -165,6 +165,7 @@ inline int32_t add_texture(SceneData& scene, int width, int height, const std::f
 inline void plan_all(Frame& frame) {
   PlanFlags& p = frame.plan;
   p.textures = p.bump = p.emission = p.ambient = p.specular = p.bounces = p.masks = p.translucents = true;
+  p.maps = kAllMaps;
 }
 
 inline SoupTriangle with_uv(SoupTriangle t, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {

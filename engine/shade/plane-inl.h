@@ -1,0 +1,231 @@
+// What a primary ray sees of a triangle, as planes over the picture: attributes times 1 / depth are linear in the pixel. Planes are
+// set up in double, once a triangle and cell of the picture, and kept in float, anchored near the pixels where they are used.
+// Include inside a *_kernel.cpp (simd/dispatch.h), after the project headers.
+#if defined(SPANRAY_PLANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_PLANE_INL_H_
+#undef SPANRAY_PLANE_INL_H_
+#else
+#define SPANRAY_PLANE_INL_H_
+#endif
+
+#include <cstring>
+
+#include "shade/map_block-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+namespace surface_lanes {
+
+// At pixel (x, y), (dx, dy) from the anchor, s = 1 + dx step_x + dy step_y is 1 / depth relative to the anchor's, and an attribute is
+// its value at the anchor plus (dx per_x + dy per_y) / s. A vector is stored as X, Y, Z; an attribute as its value, per_x, per_y.
+enum PlaneFloat : int {
+  kPlaneAnchor = 0,                      // bits of the pixel: x, y
+  kPlanePosition = 2, kPlaneNormal = 11,  // nine each
+  kPlaneWeight = 20,                     // of corners 1 and 2: value, per_x, per_y
+  kPlaneView = 26,                       // toward the eye, of depth 1
+  kPlaneUv = 29,                         // fraction of u, v; per_x of both; per_y of both; whole part of u, v
+  kPlaneGeometric = 37,                  // unit, toward the eye; zero for a triangle without area
+  kPlaneTangentU = 40, kPlaneTangentV = 43,
+  kPlaneError = 46,                      // what the size of the triangle adds to position_error, and what each pixel from the anchor
+  kPlaneMaterial = 49,                   // bits of the index
+  kPlaneFloatCount = 50
+};
+enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlaneRealCount = 3 };
+
+// position_error of a position that planes give, a + (dx per_x + dy per_y) / s: kPositionRounding |position| + kReachRounding (|dx
+// per_x| + |dy per_y|) / s + what the size of the triangle adds. In 2^-24: 1 for a, 1 for each step, 2 for their products and sum, 1
+// for the product with 1 / s, 1 for the last sum, where |a| <= |position| + reach; and 2 for s and 1 / s, which slide the position
+// along the triangle.
+inline constexpr float kPositionRounding = 0x1.01p-23f, kReachRounding = 0x1.c1p-22f;
+
+inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the instruction set
+inline constexpr uint32_t kCellMask = 0xfff0fff0;  // of a pixel: cells are 16 x 16 pixels
+inline constexpr int kCellSize = 16;
+
+// Planes that a block of hits sees: field by field in lines of kPlaneLine planes.
+struct PlaneBlock {
+  alignas(64) double real[kBlockHits * kPlaneRealCount];
+  alignas(64) float single[kBlockHits * kPlaneFloatCount];
+  alignas(64) uint32_t primitive[kBlockHits + kPlaneLine];
+  alignas(64) uint32_t cell[kBlockHits + kPlaneLine];
+  alignas(64) uint32_t plane_of_hit[kBlockHits + kPlaneLine];
+  int planes = 0;
+
+  double* reals(int plane) { return real + plane / kPlaneLine * (kPlaneLine * kPlaneRealCount) + plane % kPlaneLine; }
+  float* singles(int plane) { return single + plane / kPlaneLine * (kPlaneLine * kPlaneFloatCount) + plane % kPlaneLine; }
+};
+
+HWY_INLINE void store_plane(float* out, int field, F32 value) { value.store(out + field * kPlaneLine); }
+HWY_INLINE void store_plane(float* out, int field, const V3f& v) {
+  store_plane(out, field, v.x), store_plane(out, field + 1, v.y), store_plane(out, field + 2, v.z);
+}
+
+// An edge function along the primary rays: at pixel (0, 0), per pixel in x, per pixel in y.
+HWY_INLINE V3d along_rays(const PrimaryRays& p, const V3d& c) {
+  return {dot(broadcast(p.corner), c), dot(broadcast(p.step_x), c), dot(broadcast(p.step_y), c)};
+}
+
+struct AnchorLanes { I32 x, y; };
+
+// The corner nearest to the eye, on the triangle's plane, of the part of the cell that the triangle's box in the picture meets; of the whole
+// cell if a vertex is not in front of the eye. There s is largest, so it is at most 1 for the hits, and no digits are lost.
+// Any pixel near the hits would do: only which is taken must depend on nothing but triangle and cell.
+HWY_INLINE AnchorLanes choose_anchor(const PrimaryRays& p, const TriangleLanes& t, I32 cell, Mask nearer_x, Mask nearer_y) {
+  const V3f forward = to_f32(broadcast(p.forward)), row_x = to_f32(broadcast(p.pixel_row_x)), row_y = to_f32(broadcast(p.pixel_row_y));
+  const F32 far = f32(0x1p20f);
+  F32 low_x = far, low_y = far, high_x = -far, high_y = -far;
+  for (const V3d* v : {&t.v0, &t.v1, &t.v2}) {
+    const V3f from_eye = to_f32(*v - broadcast(p.eye));
+    const F32 depth = dot(from_eye, forward);
+    const Mask front = depth > F32::zero();
+    const F32 inverse = f32(1.0f) / select(front, depth, f32(1.0f));
+    const F32 x = dot(from_eye, row_x) * inverse, y = dot(from_eye, row_y) * inverse;
+    low_x = min_(low_x, select(front, x, -far)), high_x = max_(high_x, select(front, x, far));
+    low_y = min_(low_y, select(front, y, -far)), high_y = max_(high_y, select(front, y, far));
+  }
+  const auto corner = [&](F32 low, F32 high, I32 first, Mask nearer) HWY_ATTR {
+    const I32 last = first + i32(kCellSize);
+    const I32 a = floor_i32_small(clamp_(low, -far, far)), b = floor_i32_small(clamp_(high, -far, far)) + i32(1);
+    const I32 inside = select(nearer, b, a);
+    return min_(max_(inside, first), last);
+  };
+  return {corner(low_x, high_x, cell & i32(0xffff), nearer_x), corner(low_y, high_y, shift_right_logical<16>(cell), nearer_y)};
+}
+
+// value + per_x dx + per_y dy of what the weights interpolate, from the same of the weights.
+struct WeightPlanes {
+  F64 b1, b2, b1_x, b2_x, b1_y, b2_y;
+  HWY_INLINE F64 at_anchor(F64 v0, F64 d1, F64 d2) const { return v0 + b1 * d1 + b2 * d2; }
+  HWY_INLINE F64 per_x(F64 d1, F64 d2) const { return b1_x * d1 + b2_x * d2; }
+  HWY_INLINE F64 per_y(F64 d1, F64 d2) const { return b1_y * d1 + b2_y * d2; }
+};
+
+HWY_INLINE void store_attribute(float* out, int field, const WeightPlanes& w, const V3d& v0, const V3d& d1, const V3d& d2) {
+  const auto component = [&](int k, F64 a, F64 b, F64 c) HWY_ATTR {
+    store_plane(out, field + k, to_f32(w.at_anchor(a, b, c)));
+    store_plane(out, field + 3 + k, to_f32(w.per_x(b, c)));
+    store_plane(out, field + 6 + k, to_f32(w.per_y(b, c)));
+  };
+  component(0, v0.x, d1.x, d2.x), component(1, v0.y, d1.y, d2.y), component(2, v0.z, d1.z, d2.z);
+}
+
+// u and v: a whole part, which float holds, and what is left of it, so that repeated textures keep their digits.
+HWY_INLINE void store_uv(float* out, const WeightPlanes& w, const CornerUv& c) {
+  const F64 u = w.at_anchor(c.u0, c.du1, c.du2), v = w.at_anchor(c.v0, c.dv1, c.dv2);
+  const SplitLanes whole_u = split(u), whole_v = split(v);
+  store_plane(out, kPlaneUv, whole_u.rest), store_plane(out, kPlaneUv + 1, whole_v.rest);
+  store_plane(out, kPlaneUv + 2, to_f32(w.per_x(c.du1, c.du2))), store_plane(out, kPlaneUv + 3, to_f32(w.per_x(c.dv1, c.dv2)));
+  store_plane(out, kPlaneUv + 4, to_f32(w.per_y(c.du1, c.du2))), store_plane(out, kPlaneUv + 5, to_f32(w.per_y(c.dv1, c.dv2)));
+  store_plane(out, kPlaneUv + 6, whole_u.whole), store_plane(out, kPlaneUv + 7, whole_v.whole);
+}
+
+// kLanes planes from entry `at` on.
+// Source:   Olano and Greer 1997 (resolve-inl.h): the edge functions e of a primary ray are linear in the pixel. With s = sum(e) /
+//           sum(e at the anchor), b(pixel) - b(anchor) = (dx (e_x / sum - b s_x) + dy (e_y / sum - b s_y)) / s.
+void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
+  const SceneData& scene = *frame.scene;
+  const PrimaryRays& p = frame.primary;
+  const HitLanes hits{nullptr, i32(0), i32(0), I32::load(block.primitive + at), first_lanes(kLanes), false, block.primitive[at]};
+  const TriangleLanes t = load_triangles(scene, hits);
+  const V3d eye = broadcast(p.eye), forward = broadcast(p.forward);
+  const V3d from_eye = t.v0 - eye, side1 = t.v1 - t.v0, side2 = t.v2 - t.v0, normal = cross(side1, side2);
+  const V3d sum = along_rays(p, normal), edge1 = along_rays(p, cross(t.v2 - eye, -side2)), edge2 = along_rays(p, cross(from_eye, side1));
+  // sum / from_eye . normal is 1 / depth.
+  const F64 zero = f64(0.0);
+  const Mask turned = dot(from_eye, normal) < zero;
+  const auto nearer = [&](F64 step) HWY_ATTR { return and_not(turned, step > zero) | (turned & (step < zero)); };
+  const AnchorLanes anchor = choose_anchor(p, t, I32::load(block.cell + at), nearer(sum.y), nearer(sum.z));
+  const F64 x = to_f64(anchor.x), y = to_f64(anchor.y);
+  const auto at_anchor = [&](const V3d& e) HWY_ATTR { return e.x + e.y * x + e.z * y; };
+  const F64 inverse = f64(1.0) / at_anchor(sum), step_x = sum.y * inverse, step_y = sum.z * inverse;  // not finite: not good later
+  WeightPlanes w;
+  w.b1 = at_anchor(edge1) * inverse, w.b2 = at_anchor(edge2) * inverse;
+  w.b1_x = edge1.y * inverse - w.b1 * step_x, w.b2_x = edge2.y * inverse - w.b2 * step_x;
+  w.b1_y = edge1.z * inverse - w.b1 * step_y, w.b2_y = edge2.z * inverse - w.b2 * step_y;
+
+  double* const real = block.reals(at);
+  float* const out = block.singles(at);
+  step_x.store(real + kPlaneStepX * kPlaneLine), step_y.store(real + kPlaneStepY * kPlaneLine);
+  w.at_anchor(dot(from_eye, forward), dot(side1, forward), dot(side2, forward)).store(real + kPlaneDepth * kPlaneLine);
+  store_plane(out, kPlaneAnchor, float_from_bits(anchor.x)), store_plane(out, kPlaneAnchor + 1, float_from_bits(anchor.y));
+  int field = kPlaneWeight;
+  for (const F64* b : {&w.b1, &w.b2, &w.b1_x, &w.b2_x, &w.b1_y, &w.b2_y}) store_plane(out, field++, to_f32(*b));
+  store_attribute(out, kPlanePosition, w, t.v0, side1, side2);
+  store_plane(out, kPlaneView, to_f32(-(broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y)));
+  if (reads_textures(frame)) {
+    const CornerUv c = corner_uv(scene, t);
+    store_uv(out, w, c);
+    if (frame.plan.bump) {
+      const UvTangents g = uv_tangents(c, side1, side2, normal);
+      store_plane(out, kPlaneTangentU, g.u), store_plane(out, kPlaneTangentV, g.v);
+    }
+  }
+  const V3f geometric = geometric_normal(t, normal, from_eye);
+  store_plane(out, kPlaneGeometric, geometric);
+  if (frame.settings.shading != Shading::kFlat) {
+    const CornerNormals n = corner_normals(scene, t, geometric);
+    store_attribute(out, kPlaneNormal, w, to_f64(n.n0), to_f64(n.d1), to_f64(n.d2));
+  }
+  const auto reach = [&](F64 b1, F64 b2) HWY_ATTR { return max_abs(to_f32(side1 * b1 + side2 * b2)) * f32(kReachRounding); };
+  store_plane(out, kPlaneError, V3f{size_error(t, from_eye, side1, side2), reach(w.b1_x, w.b2_x), reach(w.b1_y, w.b2_y)});
+  store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
+}
+
+// Finds the planes of a block by triangle and cell.
+class PlaneFinder {
+ public:
+  explicit PlaneFinder(PlaneBlock& block) : block_(block) { std::memset(slot_, 0xff, sizeof slot_); }
+  uint32_t find(uint32_t primitive, uint32_t cell) {
+    for (uint32_t i = (primitive * 0x9e3779b9u ^ cell) >> 7;; ++i) {  // Fibonacci hashing: neighbouring ids spread
+      int16_t& plane = slot_[i % kSlots];
+      if (plane < 0) plane = add(primitive, cell);
+      if (block_.primitive[plane] == primitive && block_.cell[plane] == cell) return static_cast<uint32_t>(plane);
+    }
+  }
+
+ private:
+  int16_t add(uint32_t primitive, uint32_t cell) {
+    block_.primitive[block_.planes] = primitive, block_.cell[block_.planes] = cell;
+    return static_cast<int16_t>(block_.planes++);
+  }
+  static constexpr uint32_t kSlots = 2 * kBlockHits;  // at most half full
+  PlaneBlock& block_;
+  int16_t slot_[kSlots];
+};
+
+// The planes of hits [at, at + count); misses stand for primitive 0.
+void set_up_block(const Frame& frame, const HitBatch& hits, int at, int count, PlaneBlock& block) {
+  block.planes = 0;
+  PlaneFinder finder(block);
+  uint32_t last_primitive = 0, last_cell = 0, plane = kNoPrimitive;
+  for (int i = 0; i < count; i += kLanes) {
+    const I32 found = I32::load(hits.primitive.data() + at + i), cells = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
+    if (plane != kNoPrimitive && i + kLanes <= count && all((found == i32(last_primitive)) & (cells == i32(last_cell)))) {
+      i32(plane).store(block.plane_of_hit + i);
+      continue;
+    }
+    for (int k = i; k < i + kLanes && k < count; ++k) {
+      uint32_t primitive = hits.primitive[static_cast<size_t>(at + k)];
+      const uint32_t cell = hits.pixel[static_cast<size_t>(at + k)] & kCellMask;
+      if (primitive == kNoPrimitive) primitive = 0;
+      if (plane == kNoPrimitive || primitive != last_primitive || cell != last_cell)
+        plane = finder.find(primitive, cell), last_primitive = primitive, last_cell = cell;
+      block.plane_of_hit[k] = plane;
+    }
+  }
+  // Lanes past the last hit follow it, lanes past the last plane too.
+  for (int i = 0; i < kPlaneLine; ++i) {
+    block.plane_of_hit[count + i] = block.plane_of_hit[count - 1];
+    block.primitive[block.planes + i] = block.primitive[block.planes - 1], block.cell[block.planes + i] = block.cell[block.planes - 1];
+  }
+  for (int i = 0; i < block.planes; i += kLanes) set_up_planes(frame, block, i);
+}
+
+}  // namespace surface_lanes
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_PLANE_INL_H_
