@@ -230,6 +230,55 @@ TEST(ShadeSurface, PixelsOutsideAreClampedToTheTriangle) {
   EXPECT_GT(outside, 1000);
 }
 
+// The walls of a room meet at its edges: a position past the edge of its wall would lie behind the next one, in its shadow.
+TEST(ShadeSurface, PositionsInARoomAreNotBehindItsOtherWalls) {
+  constexpr float kHalf = 1.3f;
+  std::vector<SoupTriangle> room;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-double{kHalf}, double{kHalf}}) {
+      const auto corner = [&](double a, double b) {
+        glm::dvec3 p;
+        p[axis] = side, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
+        return p;
+      };
+      room.push_back(soup_triangle(corner(-kHalf, -kHalf), corner(kHalf, -kHalf), corner(kHalf, kHalf)));
+      room.push_back(soup_triangle(corner(-kHalf, -kHalf), corner(kHalf, kHalf), corner(-kHalf, kHalf)));
+    }
+  TestRandom random(21);
+  for (int view = 0; view < 6; ++view) {
+    Camera camera;  // along an axis: the room's edges run exactly through centers of pixels
+    for (int k = 0; k < 3; ++k) camera.eye[k] = 0, camera.target[k] = 0;
+    camera.eye[view % 3] = random.uniform(-0.9, 0.9), camera.target[view % 3] = view < 3 ? -2 : 2;
+    if (view % 3 == 1) camera.up[0] = 1, camera.up[1] = 0;
+    camera.fov_y_degrees = 90;
+    auto t = full_frame(make_test_scene(room), camera, 200, 200);
+    HitBatch hits;
+    for (uint32_t i = 0; i < 200 * 200; ++i) {
+      const uint32_t pixel = pack_pixel(i % 200, i / 200);
+      for (uint32_t p = 0; p < room.size(); ++p) {
+        // A little to each side, as snapping moves edges.
+        const auto seen = [&](double dx) {
+          const OracleHit hit = oracle_hit(t->scene, p, oracle_primary(t->frame, pixel, dx));
+          return hit.inside && hit.t > 0;
+        };
+        if (seen(0) || seen(1.0 / 256) || seen(-1.0 / 256)) add_hit(hits, pixel, 0, p);
+      }
+    }
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      SurfaceBatch s;
+      resolve_surfaces(t->frame, hits, s);
+      for (int i = 0; i < hits.count; ++i) {
+        const uint32_t axis = hits.primitive[static_cast<size_t>(i)] / 4;
+        for (uint32_t k = 0; k < 3; ++k) {
+          if (k == axis) EXPECT_LE(std::fabs(std::fabs(s.position[k][i]) - kHalf), s.position_error[i]);
+          else ASSERT_LE(std::fabs(s.position[k][i]), kHalf) << isa_name(isa) << " axis " << axis << ", " << k << ", view " << view;
+        }
+      }
+    }
+  }
+}
+
 TEST(ShadeSurface, MissesAreZero) {
   auto t = full_frame(random_surface_scene(11, 5), Camera{}, 64, 64);
   for (const Isa isa : supported_isas()) {

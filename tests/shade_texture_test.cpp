@@ -285,6 +285,39 @@ TEST(ShadeTexture, I1_RatioOfAMillionReadsTheRightTexel) {
   }
 }
 
+// What lanes beside it do with their coordinates changes no bit of a sample.
+TEST(ShadeTexture, NeighboursWithOptionsChangeNothing) {
+  TestRandom random(31);
+  std::vector<Material> materials(4);
+  std::vector<SoupTriangle> soup;  // a texel of the plain map a pixel, and v = 0 in the middle
+  for (uint32_t i = 0; i < 4; ++i)
+    soup.push_back(with_uv(soup_triangle({-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, i), {-2, -0.03}, {2, -0.03}, {-2, 0.03}));
+  SceneData scene = make_test_scene(soup, materials);
+  const auto noise = [&](int, int) { return noise_texel(random); };
+  const int32_t scaled = add_texture(scene, 16, 16, noise), clamped = add_texture(scene, 16, 16, noise);
+  scene.texture_uses[static_cast<size_t>(scaled)].scale[1] = -3, scene.texture_uses[static_cast<size_t>(clamped)].clamp = 1;
+  const int32_t plain = add_texture(scene, 4, 4096, noise);
+  scene.materials[0].map_diffuse = plain, scene.materials[1].map_diffuse = scaled, scene.materials[2].map_diffuse = clamped;
+  Camera camera;
+  camera.eye[2] = 3;
+  auto t = full_frame(std::move(scene), camera, 512, 512);
+  t->frame.settings.filter = Filter::kBilinear;
+  HitBatch alone, beside;
+  for (uint32_t y = 180; y < 330; ++y)
+    for (uint32_t x = 180; x < 330; ++x) {
+      add_hit(alone, pack_pixel(x, y), 0, 0);
+      add_hit(beside, pack_pixel(x, y), 0, 0), add_hit(beside, pack_pixel(x, y), 0, 1 + (x + y) % 3);
+    }
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch a, b;
+    resolve_surfaces(t->frame, alone, a);
+    resolve_surfaces(t->frame, beside, b);
+    for (int i = 0; i < alone.count; ++i)
+      for (int k = 0; k < 3; ++k) ASSERT_EQ(bits_of(a.diffuse[k][i]), bits_of(b.diffuse[k][2 * i])) << isa_name(isa) << " " << i;
+  }
+}
+
 TEST(ShadeTexture, MapsScaleTheirFields) {
   const auto gray = [](uint16_t v) { return [v](int, int) { return Texel{v, v, v, v}; }; };
   TextureProbe probe([&](SceneData& scene, Material& m) {

@@ -1,4 +1,4 @@
-// The order in which a batch of hits is shaded: all hits of a primitive side by side, so that most vectors of lanes see one
+// The order in which the hits of bounce rays are shaded: all hits of a primitive side by side, so that most vectors of lanes see one
 // triangle and one material, whose data are then broadcast instead of gathered.
 #pragma once
 #include <cstdint>

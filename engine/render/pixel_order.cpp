@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "frame/tiles.h"
+
 namespace spanray {
 
 void PixelOrder::make(int columns, int rows) {
   if (columns == columns_ && rows == rows_) return;
-  constexpr int kCell = 16, kBlock = 4;
   columns_ = columns, rows_ = rows;
   pixel_.clear();
   slot_.resize(static_cast<size_t>(columns * rows));
@@ -20,8 +21,8 @@ void PixelOrder::make(int columns, int rows) {
         pixel_.push_back(static_cast<uint32_t>(x) | static_cast<uint32_t>(y) << 16);
       }
   };
-  blocks(0, rows, kCell, [&](int cell_y0, int cell_y1) {
-    blocks(0, columns, kCell, [&](int cell_x0, int cell_x1) {
+  blocks(0, rows, kCellSize, [&](int cell_y0, int cell_y1) {
+    blocks(0, columns, kCellSize, [&](int cell_x0, int cell_x1) {
       blocks(cell_y0, cell_y1, kBlock, [&](int y0, int y1) {
         blocks(cell_x0, cell_x1, kBlock, [&](int x0, int x1) { block(x0, x1, y0, y1); });
       });

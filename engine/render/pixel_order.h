@@ -30,13 +30,15 @@ class PixelOrder {
   // Runs of pixels that are neighbours both in slots and in a row.
   template <class Copy> void each_run(const Copy& copy) const {
     if (columns_ % kRun == 0) {
-      for (size_t i = 0; i < pixel_.size(); i += kRun) copy(i, static_cast<int>(pixel_[i] & 0xffff), static_cast<int>(pixel_[i] >> 16), kRun);
+      for (size_t i = 0; i < pixel_.size(); i += kRun)
+        copy(i, static_cast<int>(pixel_[i] & 0xffff), static_cast<int>(pixel_[i] >> 16), kRun);
     } else {
       for (size_t i = 0; i < pixel_.size(); ++i) copy(i, static_cast<int>(pixel_[i] & 0xffff), static_cast<int>(pixel_[i] >> 16), 1);
     }
   }
 
-  static constexpr size_t kRun = 4;
+  static constexpr int kBlock = 4;      // side of a block
+  static constexpr size_t kRun = kBlock;  // neighbours in a row of it
   int columns_ = 0, rows_ = 0;
   std::vector<uint32_t> pixel_;
   std::vector<int32_t> slot_;

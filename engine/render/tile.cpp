@@ -14,7 +14,7 @@ namespace spanray {
 namespace {
 
 // Rows of slots shaded at once: their surfaces fit the second-level cache.
-constexpr int kChunkRows = 16;
+constexpr int kChunkRows = kCellSize;
 
 int chunk_rows(const Frame& frame) {
   const bool every_sample = frame.places.count > 1 && frame.settings.antialiasing == Antialiasing::kSupersample;

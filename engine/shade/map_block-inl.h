@@ -41,9 +41,10 @@ struct UvBlock {
 
 // Surfaces [begin, begin + count) of a batch.
 struct SurfaceBlock {
+  SurfaceBlock(const Frame& f, const SurfaceBatch& batch) : frame(f), out(batch) {}
   const Frame& frame;
   const SurfaceBatch& out;
-  int begin, count;
+  int begin = 0, count = 0;
   UvBlock uv;  // only if reads_textures
 };
 
@@ -153,7 +154,8 @@ HWY_NOINLINE bool find_samples(const SurfaceBlock& block, int slot, MapBlock& sa
 }
 
 // visit(group, map lanes, raw sample) for each vector of the block that has samples.
-template <int kChannels, class Visit> HWY_INLINE void read_samples(const SurfaceBlock& block, int slot, const MapBlock& samples, const Visit& visit) {
+template <int kChannels, class Visit>
+HWY_INLINE void read_samples(const SurfaceBlock& block, int slot, const MapBlock& samples, const Visit& visit) {
   const SceneData& scene = *block.frame.scene;
   const bool nearest = block.frame.settings.filter == Filter::kNearest;
   for (int i = 0; i < block.count; i += kLanes) {

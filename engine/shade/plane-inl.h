@@ -29,7 +29,8 @@ enum PlaneFloat : int {
   kPlaneTangentU = 40, kPlaneTangentV = 43,
   kPlaneError = 46,                      // what the size of the triangle adds to position_error, and what each pixel from the anchor
   kPlaneMaterial = 49,                   // bits of the index
-  kPlaneFloatCount = 50
+  kPlaneSlimness = 50,                   // the inverse of the triangle's smallest height
+  kPlaneFloatCount = 51
 };
 enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlaneRealCount = 3 };
 
@@ -40,8 +41,8 @@ enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlane
 inline constexpr float kPositionRounding = 0x1.01p-23f, kReachRounding = 0x1.c1p-22f;
 
 inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the instruction set
-inline constexpr uint32_t kCellMask = 0xfff0fff0;  // of a pixel: cells are 16 x 16 pixels
-inline constexpr int kCellSize = 16;
+inline constexpr uint32_t kCellMask = 0xfff0fff0;  // of a pixel
+static_assert(kCellSize == 16);
 
 // Planes that a block of hits sees: field by field in lines of kPlaneLine planes.
 struct PlaneBlock {
@@ -68,8 +69,8 @@ HWY_INLINE V3d along_rays(const PrimaryRays& p, const V3d& c) {
 
 struct AnchorLanes { I32 x, y; };
 
-// The corner nearest to the eye, on the triangle's plane, of the part of the cell that the triangle's box in the picture meets; of the whole
-// cell if a vertex is not in front of the eye. There s is largest, so it is at most 1 for the hits, and no digits are lost.
+// The corner nearest to the eye, on the triangle's plane, of the part of the cell that the triangle's box in the picture meets; of the
+// whole cell if a vertex is not in front of the eye. There s is largest, so it is at most 1 for the hits, and no digits are lost.
 // Any pixel near the hits would do: only which is taken must depend on nothing but triangle and cell.
 HWY_INLINE AnchorLanes choose_anchor(const PrimaryRays& p, const TriangleLanes& t, I32 cell, Mask nearer_x, Mask nearer_y) {
   const V3f forward = to_f32(broadcast(p.forward)), row_x = to_f32(broadcast(p.pixel_row_x)), row_y = to_f32(broadcast(p.pixel_row_y));
@@ -169,6 +170,9 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
   }
   const auto reach = [&](F64 b1, F64 b2) HWY_ATTR { return max_abs(to_f32(side1 * b1 + side2 * b2)) * f32(kReachRounding); };
   store_plane(out, kPlaneError, V3f{size_error(t, from_eye, side1, side2), reach(w.b1_x, w.b2_x), reach(w.b1_y, w.b2_y)});
+  const V3d side3 = side2 - side1;
+  const F64 longest = max_(dot(side3, side3), max_(dot(side1, side1), dot(side2, side2)));
+  store_plane(out, kPlaneSlimness, to_f32(sqrt_(longest / dot(normal, normal))));  // without area: not finite, never good
   store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
 }
 
@@ -177,7 +181,7 @@ class PlaneFinder {
  public:
   explicit PlaneFinder(PlaneBlock& block) : block_(block) { std::memset(slot_, 0xff, sizeof slot_); }
   uint32_t find(uint32_t primitive, uint32_t cell) {
-    for (uint32_t i = (primitive * 0x9e3779b9u ^ cell) >> 7;; ++i) {  // Fibonacci hashing: neighbouring ids spread
+    for (uint32_t i = (primitive ^ cell * 0x85ebca6bu) * 0x9e3779b9u >> 16;; ++i) {  // Fibonacci hashing: neighbouring ids spread
       int16_t& plane = slot_[i % kSlots];
       if (plane < 0) plane = add(primitive, cell);
       if (block_.primitive[plane] == primitive && block_.cell[plane] == cell) return static_cast<uint32_t>(plane);
@@ -198,7 +202,7 @@ class PlaneFinder {
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, int count, PlaneBlock& block) {
   block.planes = 0;
   PlaneFinder finder(block);
-  uint32_t last_primitive = 0, last_cell = 0, plane = kNoPrimitive;
+  uint32_t last_primitive = 0, last_cell = 0, plane = kNoPrimitive;  // of the last plane
   for (int i = 0; i < count; i += kLanes) {
     const I32 found = I32::load(hits.primitive.data() + at + i), cells = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
     if (plane != kNoPrimitive && i + kLanes <= count && all((found == i32(last_primitive)) & (cells == i32(last_cell)))) {

@@ -44,30 +44,32 @@ template <class Planes> HWY_INLINE V3f plane3(const Planes& p, int field) { retu
 struct PlanePoint {
   F32 dx, dy, inverse;
   HWY_INLINE F32 moved(F32 per_x, F32 per_y) const { return mul_add(per_y, dy, per_x * dx) * inverse; }
+  // The derivative of what has moved by `moved`, by a step of one pixel: (per - moved * step) / s, step of s.
+  HWY_INLINE F32 slope(F32 per, F32 moved, F32 step) const { return neg_mul_add(moved, step, per) * inverse; }
 };
 
 template <class Planes> HWY_INLINE V3f moved3(const Planes& p, const PlanePoint& at, int field) {
   return {at.moved(p.f(field + 3), p.f(field + 6)), at.moved(p.f(field + 4), p.f(field + 7)), at.moved(p.f(field + 5), p.f(field + 8))};
 }
 
-// The derivative by a pixel step of what has moved by `moved` since the anchor: (g - moved * s') / s.
 template <class Planes> HWY_INLINE UvLanes primary_uv(const Frame& frame, const Planes& p, const PlanePoint& at, F32 step_x, F32 step_y) {
-  const F32 scale = at.inverse * f32(static_cast<float>(frame.footprint));
+  const F32 side = f32(static_cast<float>(frame.footprint));
   UvLanes uv;
   const F32 ux = p.f(kPlaneUv + 2), vx = p.f(kPlaneUv + 3), uy = p.f(kPlaneUv + 4), vy = p.f(kPlaneUv + 5);
   const F32 u = at.moved(ux, uy), v = at.moved(vx, vy);
   uv.u = p.f(kPlaneUv) + u, uv.v = p.f(kPlaneUv + 1) + v;
   uv.whole_u = p.f(kPlaneUv + 6), uv.whole_v = p.f(kPlaneUv + 7);
-  uv.du_dx = neg_mul_add(u, step_x, ux) * scale, uv.dv_dx = neg_mul_add(v, step_x, vx) * scale;
-  uv.du_dy = neg_mul_add(u, step_y, uy) * scale, uv.dv_dy = neg_mul_add(v, step_y, vy) * scale;
+  uv.du_dx = at.slope(ux, u, step_x) * side, uv.dv_dx = at.slope(vx, v, step_x) * side;
+  uv.du_dy = at.slope(uy, u, step_y) * side, uv.dv_dy = at.slope(vy, v, step_y) * side;
   if (frame.plan.bump) uv.tangent_u = plane3(p, kPlaneTangentU), uv.tangent_v = plane3(p, kPlaneTangentV);
   return uv;
 }
 
-// The surfaces of kLanes hits of primary rays, up to their materials. Returns the lanes where that is so: the others look along
-// their triangle, or just past it, and are resolved one by one (resolve_kernel.cpp).
-// Contract: weights within 2^-21 of the triangle, moved into it. Errors are those of moving the pixel by 2^-19 and of rounding to
-//           float. t is of double precision, rounded: coplanar triangles get the same.
+// The surfaces of kLanes hits of primary rays, up to their materials. Returns the lanes where that is so: the others look past an edge of
+// their triangle, or so near to one that rounding could carry their position over it, behind a wall that meets it there. These are
+// resolved as hits of other rays are, and moved into the triangle (resolve_kernel.cpp).
+// Contract: positions on the triangle, but for position_error off its plane; weights in [0, 1]. Errors are those of moving the pixel by
+//           2^-19 and of rounding to float. t is of double precision, rounded.
 template <class Planes>
 HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, const OffsetLanes& offset, PointLanes& point) {
   const F32 zero = F32::zero(), one = f32(1.0f);
@@ -78,19 +80,20 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   const F32 single_s = to_f32(s);
   at.inverse = one / single_s;
   const F64 r = to_f64(at.inverse);
-  point.t = to_f32((p.d(kPlaneDepth) * r) * (f64(2.0) - s * r));  // one step of Newton's method: 46 bits
+  const F64 two = f64(2.0), better = r * (two - s * r);  // Newton's method: 46 bits, then all
+  point.t = to_f32(p.d(kPlaneDepth) * (better * (two - s * better)));
 
   const F32 b1 = p.f(kPlaneWeight) + at.moved(p.f(kPlaneWeight + 2), p.f(kPlaneWeight + 4));
   const F32 b2 = p.f(kPlaneWeight + 1) + at.moved(p.f(kPlaneWeight + 3), p.f(kPlaneWeight + 5));
   const F32 b0 = one - b1 - b2;
-  Mask good = (single_s > zero) & (b0 >= f32(-0x1p-22f)) & (b1 >= f32(-0x1p-22f)) & (b2 >= f32(-0x1p-22f));
-  point.weight = {clamp_(b0, zero, one), clamp_(b1, zero, one), clamp_(b2, zero, one)};
+  point.weight = {b0, b1, b2};
 
   const V3f moved = moved3(p, at, kPlanePosition);
   point.position = plane3(p, kPlanePosition) + moved;
   const F32 reach = mul_add(p.f(kPlaneError + 2), abs_(at.dy), p.f(kPlaneError + 1) * abs_(at.dx)) * at.inverse;
   point.position_error = mul_add(max_abs(point.position), f32(kPositionRounding), reach) + p.f(kPlaneError);
-  good = good & (point.position_error < f32(0x1p100f));
+  const F32 margin = mul_add(point.position_error, p.f(kPlaneSlimness), f32(0x1p-20f));
+  Mask good = (single_s > zero) & (b0 >= margin) & (b1 >= margin) & (b2 >= margin) & (point.position_error < f32(0x1p100f));
 
   const PrimaryRays& rays = frame.primary;
   const V3f none{zero, zero, zero};
@@ -102,10 +105,10 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
     point.normal = unit_or(plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), 1e-6f, point.geometric);
   const F32 single_x = to_f32(step_x), single_y = to_f32(step_y);
   if (frame.plan.bounces) {
-    const F32 scale = at.inverse * f32(static_cast<float>(frame.footprint));
+    const F32 side = f32(static_cast<float>(frame.footprint));
     const auto by_pixel = [&](F32 step, int field) HWY_ATTR {
-      const V3f g = plane3(p, field);
-      return V3f{neg_mul_add(moved.x, step, g.x) * scale, neg_mul_add(moved.y, step, g.y) * scale, neg_mul_add(moved.z, step, g.z) * scale};
+      const V3f per = plane3(p, field);
+      return V3f{at.slope(per.x, moved.x, step), at.slope(per.y, moved.y, step), at.slope(per.z, moved.z, step)} * side;
     };
     point.dpdx = by_pixel(single_x, kPlanePosition + 3), point.dpdy = by_pixel(single_y, kPlanePosition + 6);
   }

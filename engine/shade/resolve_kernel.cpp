@@ -48,8 +48,10 @@ HitLanes load_hits(const HitBatch& hits, int at) {
 }
 
 // Everything about kLanes hits of any rays, each from its own setup in double. differentials(): only called where they are used.
+// forward: t is the view depth; nullptr: the distance along the ray.
 template <class Differentials>
-HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const RayLanes& ray, const Differentials& differentials) {
+HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const RayLanes& ray, const glm::dvec3* forward,
+                               const Differentials& differentials) {
   const SceneData& scene = *frame.scene;
   const TriangleLanes t = load_triangles(scene, hits);
   const SurfaceLanes s = resolve_lanes(ray, t);
@@ -57,7 +59,7 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
   PointLanes point;
   point.position = to_f32(s.position);
   point.position_error = position_error(s, t);
-  point.t = to_f32(distance);
+  point.t = to_f32(forward != nullptr ? dot(s.position - ray.origin, broadcast(*forward)) : distance);
   point.weight = {to_f32(s.b0), to_f32(s.b1), to_f32(s.b2)};
   // From the shaded point, not along the ray: a ray whose weights were clamped may pass below the triangle's horizon.
   const V3f none{F32::zero(), F32::zero(), F32::zero()};
@@ -80,17 +82,16 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
   return point;
 }
 
-// Lanes of primary hits that planes do not serve (primary_point). t is the view depth of the clamped point.
+// Lanes of primary hits that planes do not serve (primary_point).
 HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const OffsetLanes& offset, Mask good, PointLanes& point) {
   const PrimaryRays& p = frame.primary;
   const auto [x, y] = places_of(hits.pixel, offset);
   const RayLanes ray = {broadcast(p.eye), broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y};
   const V3d zero{f64(0.0), f64(0.0), f64(0.0)};
   const F64 side = f64(frame.footprint);
-  PointLanes odd = point_of(frame, hits, ray, [&]() HWY_ATTR {
+  PointLanes odd = point_of(frame, hits, ray, &p.forward, [&]() HWY_ATTR {
     return DifferentialLanes{zero, zero, broadcast(p.step_x) * side, broadcast(p.step_y) * side};
   });
-  odd.t = to_f32(dot(to_f64(odd.position) - broadcast(p.eye), broadcast(p.forward)));
   const auto take = [&](auto& field, const auto& other) HWY_ATTR { field = select(good, field, other); };
   take(point.position, odd.position), take(point.position_error, odd.position_error), take(point.t, odd.t);
   take(point.weight, odd.weight), take(point.view, odd.view), take(point.geometric, odd.geometric), take(point.normal, odd.normal);
@@ -159,7 +160,7 @@ void resolve_primary(SurfaceBlock& block, const HitBatch& hits, PlaneBlock& plan
 void resolve_secondary(SurfaceBlock& block, const HitBatch& hits) {
   const Frame& frame = block.frame;
   store_points(block, hits, [&](const HitLanes& lanes, int, PointLanes& point) HWY_ATTR {
-    point = point_of(frame, lanes, load_rays(frame, lanes), [&]() HWY_ATTR { return load_differentials(frame, lanes); });
+    point = point_of(frame, lanes, load_rays(frame, lanes), nullptr, [&]() HWY_ATTR { return load_differentials(frame, lanes); });
   });
 }
 
@@ -171,7 +172,7 @@ void resolve_secondary(SurfaceBlock& block, const HitBatch& hits) {
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
-  SurfaceBlock block{frame, out, 0, 0, {}};
+  SurfaceBlock block(frame, out);
   PlaneBlock planes;
   for (; block.begin < hits.count; block.begin += kBlockHits) {
     block.count = hits.count - block.begin < kBlockHits ? hits.count - block.begin : kBlockHits;

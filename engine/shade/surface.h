@@ -10,8 +10,8 @@ namespace spanray {
 // Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror) are 0.
 struct SurfaceBatch {
   int count = 0;
-  float* position[3];          // on the original triangle, weights clamped to it
-  float* position_error;       // bound on the distance of position from the triangle, each coordinate, world units (resolve-inl.h)
+  float* position[3];          // on the original triangle, moved into it
+  float* position_error;       // bound on the distance of position from the triangle, each coordinate, world units (resolve-inl.h, plane-inl.h)
   float* geometric_normal[3];  // unit, toward the ray's origin
   float* normal[3];            // shading normal: interpolated, bumped; unit, clamped to the hemisphere of geometric_normal
   float* view[3];              // unit, toward the ray's origin
@@ -32,8 +32,9 @@ struct SurfaceBatch {
   AlignedBuffer<float> storage_;
 };
 
-// Recomputes the surface of each hit from its ray and the original triangle: setup in double (frame/rays.h), the same function
-// for both engines, so equal ids give equal bits (DESIGN 1). Interpolation by settings.shading; textures by footprint; bump.
+// Recomputes the surface of each hit from its ray and the original triangle, from a setup in double: once a triangle and cell of the picture
+// for primary rays, once a hit for others. The same for both engines, so equal ids give equal bits (DESIGN 1). Interpolation by
+// settings.shading; textures by footprint; bump.
 void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out);
 
 // accept(hit) for both engines: see frame/frame.h.

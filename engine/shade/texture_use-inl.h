@@ -65,7 +65,7 @@ HWY_INLINE UvLanes resolve_uv(const Frame& frame, const TriangleLanes& t, const 
   return uv;
 }
 
-// The same of a float.
+// fraction() of a float (point-inl.h).
 HWY_INLINE F32 fraction(F32 a) {
   return select(abs_(a) < f32(8388608.0f), F32{hn::Sub(a.v, hn::Floor(a.v))}, F32::zero());
 }
@@ -111,12 +111,15 @@ HWY_INLINE UseLanes open_use(const SceneData& scene, I32 index, bool uniform, Ma
   const F32 scale_u = use.real(scene, kUseScale), scale_v = use.real(scene, kUseScale + 1);
   const F32 offset_u = use.real(scene, kUseOffset), offset_v = use.real(scene, kUseOffset + 1), one = f32(1.0f), zero = F32::zero();
   use.s = fraction(uv.u), use.t = one - fraction(uv.v);
-  if (use.any_clamp || !all((scale_u == one) & (scale_v == one) & (offset_u == zero) & (offset_v == zero))) {
+  // Lane by lane: what a neighbour does with its coordinates changes none of this lane's bits.
+  const Mask plain = and_not(use.clamp, (scale_u == one) & (scale_v == one) & (offset_u == zero) & (offset_v == zero));
+  if (!all(plain)) {
     const F64 u = (to_f64(uv.whole_u) + to_f64(uv.u)) * to_f64(scale_u) + to_f64(offset_u);
     const F64 v = (to_f64(uv.whole_v) + to_f64(uv.v)) * to_f64(scale_v) + to_f64(offset_v);
     const F64 first = f64(0.0), last = f64(1.0);
-    use.s = select(use.clamp, to_f32(min_(max_(u, first), last)), to_f32(fraction(u)));
-    use.t = select(use.clamp, to_f32(last - min_(max_(v, first), last)), to_f32(last - fraction(v)));
+    const F32 repeated_s = select(plain, use.s, to_f32(fraction(u))), repeated_t = select(plain, use.t, to_f32(last - fraction(v)));
+    use.s = select(use.clamp, to_f32(min_(max_(u, first), last)), repeated_s);
+    use.t = select(use.clamp, to_f32(last - min_(max_(v, first), last)), repeated_t);
   }
   use.level_256 = level_of_detail(uv, scale_u * to_f32(use.width), scale_v * to_f32(use.height), use.texture_word(scene, 2));
   return use;
