@@ -160,7 +160,9 @@ TEST_F(MaterialTest, AmbientFollowsTheDiffuseTexture) {
   write_png("t.png");
   const Material m = material("map_Kd t.png\n");
   EXPECT_GE(m.map_diffuse, 0);
-  EXPECT_EQ(m.map_ambient, m.map_diffuse);
+  EXPECT_EQ(m.map_ambient, -1);  // shares map_Kd
+  EXPECT_EQ(material("map_Kd t.png\nmap_Ka t.png\n").map_ambient, -1) << "the same map";
+  EXPECT_GE(material("map_Kd t.png\nmap_Ka -s 2 t.png\n").map_ambient, 0) << "one of its own";
 }
 
 TEST_F(MaterialTest, OptionsThatAreWrongOrUnknown) {
@@ -262,6 +264,7 @@ TEST_F(MaterialTest, I8_TexelsOfColorsEncodeToTheirBytesAgain) {
   const Loaded l = load("newmtl m\nmap_Kd ramp.png\nmap_bump ramp.png\n");
   const SceneData& s = l.scene();
   const Texture &color = s.textures.at(0), &data = s.textures.at(1);
+  EXPECT_EQ(s.texture_uses.at(1).channel, 1) << "gray: one channel of a height map is enough";
   EXPECT_EQ(color.levels, 9);
   for (int i = 0; i < 256; ++i) {
     const Texel c = s.texels[static_cast<size_t>(color.offset[0] + i)], d = s.texels[static_cast<size_t>(data.offset[0] + i)];

@@ -182,5 +182,38 @@ TEST(ShadeBump, NormalMapIsInTangentSpaceWithYUp) {
   }
 }
 
+// The loader lets height maps that are gray name one channel (scene_material_test.cpp): the same bits, less to read.
+TEST(ShadeBump, OneChannelOfGrayIsItsLuminance) {
+  TestRandom random(77);
+  auto t = full_frame(random_surface_scene(78, 60), random_camera(random, 3), 512, 512);
+  const int32_t gray = add_texture(t->scene, 64, 64, [&](int, int) {
+    const auto v = static_cast<uint16_t>(random.bits() >> 16);
+    return Texel{v, v, v, 65535};
+  });
+  for (Material& m : t->scene.materials) m.map_bump = gray, m.map_normal = -1;
+  HitBatch hits;
+  random_primary_hits(t->frame, random, 1000, hits);
+  for (const Isa isa : supported_isas()) {
+    t->frame.isa = isa;
+    SurfaceBatch luminance, flat, one;
+    resolve_surfaces(t->frame, hits, luminance);
+    t->frame.plan.bump = false;
+    resolve_surfaces(t->frame, hits, flat);
+    t->frame.plan.bump = true;
+    for (const int32_t channel : {0, 1, 2, 4}) {
+      t->scene.texture_uses[static_cast<size_t>(gray)].channel = channel;
+      resolve_surfaces(t->frame, hits, one);
+      int bent = 0;
+      for (int i = 0; i < hits.count; ++i)
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_EQ(bits_of(one.normal[k][i]), bits_of(luminance.normal[k][i])) << isa_name(isa) << " " << channel;
+          bent += one.normal[k][i] != flat.normal[k][i];
+        }
+      EXPECT_GT(bent, 1000);
+    }
+    t->scene.texture_uses[static_cast<size_t>(gray)].channel = -1;
+  }
+}
+
 }  // namespace
 }  // namespace spanray

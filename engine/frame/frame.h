@@ -20,7 +20,6 @@ struct PlanFlags {
   uint32_t maps = 0;  // MaterialMaps that some material has
 };
 
-// A map_Ka that is the map_Kd is none of its own.
 enum MaterialMaps : uint32_t {
   kMapAmbient = 1, kMapDiffuse = 2, kMapSpecular = 4, kMapShininess = 8, kMapEmission = 16, kMapOpacity = 32, kAllMaps = 63
 };

@@ -18,7 +18,7 @@ bool nonzero(const float* rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; 
 
 uint32_t maps_of(const Material& m) {
   const auto bit = [](bool has, MaterialMaps map) { return has ? uint32_t{map} : 0u; };
-  return bit(m.map_ambient >= 0 && m.map_ambient != m.map_diffuse, kMapAmbient) | bit(m.map_diffuse >= 0, kMapDiffuse) |
+  return bit(m.map_ambient >= 0, kMapAmbient) | bit(m.map_diffuse >= 0, kMapDiffuse) |
          bit(m.map_specular >= 0, kMapSpecular) | bit(m.map_shininess >= 0, kMapShininess) | bit(m.map_emission >= 0, kMapEmission) |
          bit(m.map_opacity >= 0, kMapOpacity);
 }

@@ -5,16 +5,13 @@
 #include <limits>
 
 #include "frame/ladder.h"
-#include "image/encode.h"
 #include "raster/raster.h"
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
+#include "render/tile_output.h"
 
 namespace spanray {
 namespace {
-
-// Rows of slots shaded at once: their surfaces fit the second-level cache.
-constexpr int kChunkRows = kCellSize;
 
 int chunk_rows(const Frame& frame) {
   const bool every_sample = frame.places.count > 1 && frame.settings.antialiasing == Antialiasing::kSupersample;
@@ -37,6 +34,9 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   }
 }
 
+// True if each slot of a level of primary rays hit something: hits are then slots.
+bool hits_are_slots(const Level& level, bool primary) { return primary && level.hits.count == level.slots; }
+
 // The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture; hits of
 // other rays are grouped by what they hit.
 void compact_hits(TileWorker& w, Level& level, bool primary) {
@@ -56,7 +56,7 @@ void compact_hits(TileWorker& w, Level& level, bool primary) {
   const uint32_t* const slots = level.slot_of_hit.data();
   std::copy_n(slots, n, level.hits.ray.data());
   const auto pick = [&](const AlignedBuffer<uint32_t>& from, AlignedBuffer<uint32_t>& to) {
-    if (primary && n == level.slots) std::copy_n(from.data(), n, to.data());  // each slot has a hit
+    if (hits_are_slots(level, primary)) std::copy_n(from.data(), n, to.data());
     else for (size_t i = 0; i < static_cast<size_t>(n); ++i) to[i] = from[slots[i]];
   };
   pick(level.pixel, level.hits.pixel);
@@ -77,9 +77,12 @@ void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary
   const StageTimer timer(w, TileStage::kShade);
   const uint32_t* const slot_of_hit = level.slot_of_hit.data();
   const auto scatter = [&](const float* from, float miss, float* to) {
-    if (primary && level.hits.count == level.slots) return static_cast<void>(std::copy_n(from, level.slots, to));
-    std::fill_n(to, level.slots, miss);
-    for (int i = 0; i < level.hits.count; ++i) to[slot_of_hit[i]] = from[i];
+    if (hits_are_slots(level, primary)) {
+      std::copy_n(from, level.slots, to);
+    } else {
+      std::fill_n(to, level.slots, miss);
+      for (int i = 0; i < level.hits.count; ++i) to[slot_of_hit[i]] = from[i];
+    }
   };
   for (int c = 0; c < 3; ++c) scatter(w.radiance[c].data(), job.frame.scene->background[c], level.radiance[c].data());
   scatter(level.surfaces.t, kInfinity, level.opaque_t.data());
@@ -184,90 +187,6 @@ void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < from.slots; ++i) to.radiance[c][from.parent[i]] += from.weight[c][i] * from.radiance[c][i];
   }
-}
-
-// Normals and texture coordinates of a chunk's opaque surfaces, where the caller asked for them.
-void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk) {
-  const size_t width = static_cast<size_t>(job.frame.grid.width), columns = static_cast<size_t>(chunk.columns);
-  for (int y = chunk.y0; y < chunk.y1; ++y) {
-    const size_t first = static_cast<size_t>(y) * width + static_cast<size_t>(chunk.x0);
-    if (job.request.normal) std::fill_n(job.out.normal.begin() + static_cast<ptrdiff_t>(3 * first), 3 * columns, 0.0f);
-    if (job.request.uv) std::fill_n(job.out.uv.begin() + static_cast<ptrdiff_t>(2 * first), 2 * columns, 0.0f);
-  }
-  const SurfaceBatch& s = level.surfaces;
-  const SceneData& scene = *job.frame.scene;
-  for (int i = 0; i < s.count; ++i) {
-    if (!is_front_slot(level, level.slot_of_hit[i])) continue;
-    const size_t pixel = static_cast<size_t>(s.pixel[i] >> 16) * width + (s.pixel[i] & 0xffff);
-    const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
-    if (job.request.normal)
-      for (size_t k = 0; k < 3; ++k) job.out.normal[3 * pixel + k] = s.normal[k][i];
-    if (job.request.uv)
-      for (size_t k = 0; k < 2; ++k)
-        job.out.uv[2 * pixel + k] = s.weight[0][i] * scene.vertices[vertex[0]].uv[k] + s.weight[1][i] * scene.vertices[vertex[1]].uv[k] +
-                                    s.weight[2][i] * scene.vertices[vertex[2]].uv[k];
-  }
-}
-
-ChunkPixels pixels_of(const Chunk& chunk, const Level& level, TileWorker& w) {
-  const size_t pixels = static_cast<size_t>(chunk.pixels());
-  const auto to_rows = [&](const auto& slots, auto& rows) {
-    rows.resize(pixels);
-    w.pixel_order.to_rows(slots.data(), chunk.columns, rows.data());
-    return rows.data();
-  };
-  return {{to_rows(level.radiance[0], w.row_radiance[0]), to_rows(level.radiance[1], w.row_radiance[1]), to_rows(level.radiance[2], w.row_radiance[2])},
-          to_rows(level.opaque_t, w.row_t), to_rows(level.primitive, w.row_primitive)};
-}
-ChunkPixels pixels_of(const SampleHits& s) {
-  return {{s.radiance[0].data(), s.radiance[1].data(), s.radiance[2].data()}, s.front_t.data(), s.front.data()};
-}
-
-// Radiance of a chunk -> bytes.
-void encode_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
-  const size_t width = static_cast<size_t>(job.frame.grid.width);
-  uint8_t* const out = job.out.color.rgba.data() + 4 * (static_cast<size_t>(chunk.y0) * width + static_cast<size_t>(chunk.x0));
-  if (level.place.empty()) {
-    const float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
-    w.encoded.resize(static_cast<size_t>(level.slots));
-    encode_row(job.frame.isa, radiance, level.slots, reinterpret_cast<uint8_t*>(w.encoded.data()));
-    w.pixel_order.to_rows(w.encoded.data(), job.frame.grid.width, reinterpret_cast<uint32_t*>(out));
-    return;
-  }
-  const size_t columns = static_cast<size_t>(chunk.columns);
-  for (size_t row = 0; row < static_cast<size_t>(chunk.y1 - chunk.y0); ++row) {
-    const auto& from = w.samples->radiance;
-    const float* radiance[3] = {from[0].data() + row * columns, from[1].data() + row * columns, from[2].data() + row * columns};
-    encode_row(job.frame.isa, radiance, chunk.columns, out + 4 * row * width);
-  }
-}
-
-// The arrays that the caller asked for.
-void write_extras(const FrameJob& job, const ChunkPixels& pixels, const Chunk& chunk) {
-  for (int y = chunk.y0; y < chunk.y1; ++y) {
-    const size_t slot = static_cast<size_t>((y - chunk.y0) * chunk.columns);
-    const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.frame.grid.width) + static_cast<size_t>(chunk.x0);
-    for (size_t i = 0; i < static_cast<size_t>(chunk.columns); ++i) {
-      if (job.request.radiance)
-        for (size_t c = 0; c < 3; ++c) job.out.radiance[3 * (pixel + i) + c] = pixels.radiance[c][slot + i];
-      // t of a miss is infinite: its depth is 0, the background's.
-      if (job.request.depth) job.out.depth[pixel + i] = static_cast<float>(job.frame.primary.near_plane) / pixels.opaque_t[slot + i];
-      if (job.request.primitive) job.out.primitive[pixel + i] = pixels.primitive[slot + i];
-    }
-  }
-}
-
-void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
-  const StageTimer timer(w, TileStage::kEncode);
-  const bool samples = !level.place.empty();
-  if (samples) resolve_samples(chunk, level, w);
-  encode_chunk(job, w, level, chunk);
-  const FrameRequest& request = job.request;
-  if (request.normal || request.uv) write_surfaces(job, level, chunk);
-  if (!request.radiance && !request.depth && !request.primitive && request.ladder == nullptr) return;
-  const ChunkPixels pixels = samples ? pixels_of(*w.samples) : pixels_of(chunk, level, w);
-  write_extras(job, pixels, chunk);
-  if (request.ladder != nullptr) mix_chunk(job, w, chunk, pixels);
 }
 
 }  // namespace

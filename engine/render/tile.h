@@ -19,6 +19,9 @@ namespace spanray {
 enum class TileStage { kRaster, kShade, kShadowRays, kBounceRays, kComposite, kEncode };
 inline constexpr int kTileStageCount = 6;
 
+// Rows of pixels shaded at once, at the most: their surfaces fit the second-level cache.
+inline constexpr int kChunkRows = kCellSize;
+
 // The part of a tile that is shaded at once.
 struct Chunk {
   int tile, x0, columns, y0, y1;
@@ -59,8 +62,8 @@ struct TileWorker {
   HitBatch fragment_hits;
   AlignedBuffer<int32_t> fragment_slot;
   SurfaceBatch fragment_surfaces;
-  PixelOrder pixel_order;                         // of the slots of level 0, with one sample a pixel
-  AlignedBuffer<float> row_radiance[3], row_t;    // its results row by row, where they are asked for
+  PixelOrder pixel_order;                         // of a chunk's pixels; with one sample a pixel, of the slots of level 0
+  AlignedBuffer<float> row_radiance[3], row_t;    // results of level 0 row by row, where they are asked for
   AlignedBuffer<uint32_t> row_primitive, encoded;
   HitOrder order;                                 // of hits of bounce rays
   FrameCounts counts;

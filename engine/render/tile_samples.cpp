@@ -93,30 +93,29 @@ bool index_fragments(const Chunk& chunk, int samples, SampleHits& seen) {
   return true;
 }
 
-constexpr int kSquare = 4;  // pixels on a side
-
-// What the samples of up to kSquare rows of a chunk see.
-class RowsOfSamples {
+// What the samples of a chunk see. Pixels count from its upper left corner.
+class ChunkSamples {
  public:
-  RowsOfSamples(const Frame& frame, const Chunk& chunk, const SampleHits& seen, int y0) : samples_(frame.places.count), y0_(y0) {
-    id_ = seen.primitive.data() + tile_row(frame.grid, chunk, y0);
-    for (int y = 0; y < std::min(kSquare, chunk.y1 - y0); ++y)
+  // compare: differ() will be asked.
+  ChunkSamples(const Frame& frame, const Chunk& chunk, const SampleHits& seen, bool compare) : samples_(frame.places.count) {
+    id_ = seen.primitive.data() + tile_row(frame.grid, chunk, chunk.y0);
+    for (int y = 0; compare && y < chunk.y1 - chunk.y0; ++y)
       for (int s = 1; s < samples_; ++s) {
         const uint32_t *first = id_ + y * kTileSize, *other = first + s * kSamplePlane;
         for (int x = 0; x < chunk.columns; ++x) differ_[y][x] |= first[x] ^ other[x];
       }
   }
-  bool differ(int x, int y) const { return differ_[y - y0_][x] != 0; }
-  uint32_t first(int x, int y) const { return id_[(y - y0_) * kTileSize + x]; }
+  bool differ(int x, int y) const { return differ_[y][x] != 0; }
+  uint32_t first(int x, int y) const { return id_[y * kTileSize + x]; }
   // In an order of samples.
   void get(int x, int y, const int* order, uint32_t id[kMaxSamples]) const {
-    for (int r = 0; r < samples_; ++r) id[r] = id_[order[r] * kSamplePlane + (y - y0_) * kTileSize + x];
+    for (int r = 0; r < samples_; ++r) id[r] = id_[order[r] * kSamplePlane + y * kTileSize + x];
   }
 
  private:
-  const int samples_, y0_;
+  const int samples_;
   const uint32_t* id_;
-  uint32_t differ_[kSquare][kTileSize] = {};
+  uint32_t differ_[kChunkRows][kTileSize] = {};
 };
 
 // Fills level 0 and the list of fragments, slot by slot.
@@ -236,24 +235,21 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   level.resize(chunk.pixels() * samples, translucents);
   level.place.resize(static_cast<size_t>(level.slots));
   SlotMaker maker(job, w, level);
-  // Squares of pixels: neighbours in a vector are then neighbours in the picture, and their rays go through the same boxes.
-  for (int y0 = chunk.y0; y0 < chunk.y1; y0 += kSquare) {
-    const RowsOfSamples rows(job.frame, chunk, seen, y0);
-    for (int x0 = 0; x0 < chunk.columns; x0 += kSquare)
-      for (int y = y0; y < std::min(y0 + kSquare, chunk.y1); ++y)
-        for (int x = x0; x < std::min(x0 + kSquare, chunk.columns); ++x) {
-          const uint32_t parent = static_cast<uint32_t>((y - chunk.y0) * chunk.columns + x);
-          const size_t at = static_cast<size_t>(parent) * static_cast<size_t>(samples);
-          const bool layers = fragments && seen.start[at] != seen.start[at + static_cast<size_t>(samples)];
-          const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0 + x), static_cast<uint32_t>(y));
-          uint32_t id[kMaxSamples];
-          if (!one_each && !layers && !rows.differ(x, y)) {
-            maker.add_whole(parent, pixel, rows.first(x, y));
-          } else {
-            rows.get(x, y, maker.nearest_first(), id);
-            maker.add_groups(parent, pixel, id, layers);
-          }
-        }
+  w.pixel_order.make(chunk.columns, chunk.y1 - chunk.y0);
+  const ChunkSamples chunk_samples(job.frame, chunk, seen, !one_each);
+  for (const uint32_t at : w.pixel_order.pixel()) {
+    const int x = static_cast<int>(at & 0xffff), y = static_cast<int>(at >> 16);
+    const uint32_t parent = static_cast<uint32_t>(y * chunk.columns + x);
+    const size_t first = static_cast<size_t>(parent) * static_cast<size_t>(samples);
+    const bool layers = fragments && seen.start[first] != seen.start[first + static_cast<size_t>(samples)];
+    const uint32_t pixel = pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(chunk.y0)) + at;
+    if (!one_each && !layers && !chunk_samples.differ(x, y)) {
+      maker.add_whole(parent, pixel, chunk_samples.first(x, y));
+    } else {
+      uint32_t id[kMaxSamples];
+      chunk_samples.get(x, y, maker.nearest_first(), id);
+      maker.add_groups(parent, pixel, id, layers);
+    }
   }
   level.resize(maker.slots(), translucents);
   level.place.resize(static_cast<size_t>(level.slots));

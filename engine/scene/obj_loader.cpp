@@ -98,8 +98,9 @@ class MaterialLoader {
   }
 
   // What a texture means depends on what was loaded.
-  static void settle_textures(Material& m) {
-    if (m.map_ambient < 0) m.map_ambient = m.map_diffuse;
+  void settle_textures(Material& m) const {
+    const auto use = [&](int32_t index) { return scene_.texture_uses[static_cast<size_t>(index)]; };
+    if (m.map_ambient >= 0 && m.map_diffuse >= 0 && use(m.map_ambient) == use(m.map_diffuse)) m.map_ambient = -1;
     if (m.illum == 0 && m.map_emission < 0) m.map_emission = m.map_diffuse;
     if (m.map_opacity < 0 && m.transparency == static_cast<int32_t>(MaterialTransparency::kMask))
       m.transparency = static_cast<int32_t>(MaterialTransparency::kOpaque);

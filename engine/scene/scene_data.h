@@ -43,12 +43,14 @@ struct TextureUse {
   float bump_multiplier = 1;     // -bm
   int32_t clamp = 0;             // -clamp on: 1
   int32_t channel = -1;          // -imfchan: 0 r, 1 g, 2 b, 3 a (m), 4 luminance; -1: the default of the slot
+  bool operator==(const TextureUse&) const = default;
 };
 inline constexpr int kTextureUseStride = sizeof(TextureUse) / 4;
 
 enum class MaterialTransparency : int32_t { kOpaque, kMask, kAlpha, kScreenDoor };
 
-// MTL fields in linear light. Only 4-byte fields. Texture slots index SceneData::texture_uses, -1 = none.
+// MTL fields in linear light. Only 4-byte fields. Texture slots index SceneData::texture_uses, -1 = none; ambient light without a map of
+// its own is modulated by map_diffuse.
 struct Material {
   float ambient[3] = {0.8f, 0.8f, 0.8f};  // Ka, or Kd where Ka is absent or zero
   float diffuse[3] = {0.8f, 0.8f, 0.8f};  // Kd, reflectance in [0, 1]

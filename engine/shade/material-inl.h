@@ -7,6 +7,7 @@
 #define SPANRAY_MATERIAL_INL_H_
 #endif
 
+#include "shade/bump-inl.h"
 #include "shade/map_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,64 +25,36 @@ HWY_INLINE void modulate(const Group& g, Mask active, float* const field[3], con
   put(g, field, select(active, V3f{color.x * map.x, color.y * map.y, color.z * map.z}, color));
 }
 
-// Diffuse and ambient share map_Kd unless there is another map_Ka.
-HWY_INLINE void modulate_diffuse(const SurfaceBlock& block, MapBlock& samples) {
+// field times the map, held in [0, most], in lanes that have it.
+HWY_INLINE void modulate(const Group& g, Mask active, float* field, F32 map, float most) {
+  const F32 value = F32::load(field + g.at);
+  put(g, field, select(active, clamp_(value * map, F32::zero(), f32(most)), value));
+}
+
+// Diffuse and ambient share map_Kd unless there is a map_Ka. Specular and mirror share map_Ks: the mirror weight comes from Ks.
+HWY_INLINE void modulate_colors(const SurfaceBlock& block, MapBlock& samples) {
   const SceneData& scene = *block.frame.scene;
   const PlanFlags& plan = block.frame.plan;
   const SurfaceBatch& out = block.out;
-  if ((plan.maps & kMapDiffuse) != 0 && find_samples(block, SPANRAY_WORD(map_diffuse), samples)) {
-    read_samples<3>(block, SPANRAY_WORD(map_diffuse), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      const V3f color = color_of(scene, map, raw);
-      modulate(g, map.active, out.diffuse, color);
-      if (!plan.ambient) return;
-      const I32 own = material_map(g, SPANRAY_WORD(map_ambient));
-      modulate(g, map.active & ((own < i32(0)) | (own == material_map(g, SPANRAY_WORD(map_diffuse)))), out.ambient, color);
-    });
-  }
-  if (plan.ambient && (plan.maps & kMapAmbient) != 0 && find_samples(block, SPANRAY_WORD(map_ambient), samples, SPANRAY_WORD(map_diffuse))) {
-    read_samples<3>(block, SPANRAY_WORD(map_ambient), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+  each_sample<3>(block, kDiffuseSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+    const V3f color = color_of(scene, map, raw);
+    modulate(g, map.active, out.diffuse, color);
+    if (plan.ambient) modulate(g, map.active & (material_map(g, kAmbientSlot.word) < i32(0)), out.ambient, color);
+  });
+  if (plan.ambient)
+    each_sample<3>(block, kAmbientSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
       modulate(g, map.active, out.ambient, color_of(scene, map, raw));
     });
-  }
-}
-
-// Specular and mirror share map_Ks: the mirror weight comes from Ks.
-HWY_INLINE void modulate_specular(const SurfaceBlock& block, MapBlock& samples) {
-  const SceneData& scene = *block.frame.scene;
-  const PlanFlags& plan = block.frame.plan;
-  const SurfaceBatch& out = block.out;
-  if ((plan.specular || plan.bounces) && (plan.maps & kMapSpecular) != 0 && find_samples(block, SPANRAY_WORD(map_specular), samples)) {
-    read_samples<3>(block, SPANRAY_WORD(map_specular), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+  if (plan.specular || plan.bounces)
+    each_sample<3>(block, kSpecularSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
       const V3f color = color_of(scene, map, raw);
-      modulate(g, map.active, out.specular, color);
-      modulate(g, map.active, out.mirror, color);
+      if (plan.specular) modulate(g, map.active, out.specular, color);
+      if (plan.bounces) modulate(g, map.active, out.mirror, color);
     });
-  }
-  if (plan.specular && (plan.maps & kMapShininess) != 0 && find_samples(block, SPANRAY_WORD(map_shininess), samples)) {
-    read_samples<4>(block, SPANRAY_WORD(map_shininess), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      const F32 shininess = F32::load(out.shininess + g.at);
-      put(g, out.shininess, select(map.active, clamp_(shininess * scalar_of(scene, map, raw), F32::zero(), f32(1e4f)), shininess));
+  if (plan.emission)
+    each_sample<3>(block, kEmissionSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(g, map.active, out.emission, color_of(scene, map, raw));
     });
-  }
-}
-
-HWY_INLINE void modulate_emission(const SurfaceBlock& block, MapBlock& samples) {
-  const SceneData& scene = *block.frame.scene;
-  if (!block.frame.plan.emission || (block.frame.plan.maps & kMapEmission) == 0) return;
-  if (!find_samples(block, SPANRAY_WORD(map_emission), samples)) return;
-  read_samples<3>(block, SPANRAY_WORD(map_emission), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-    modulate(g, map.active, block.out.emission, color_of(scene, map, raw));
-  });
-}
-
-HWY_INLINE void modulate_opacity(const SurfaceBlock& block, MapBlock& samples) {
-  const SceneData& scene = *block.frame.scene;
-  if (!block.frame.plan.translucents || (block.frame.plan.maps & kMapOpacity) == 0) return;
-  if (!find_samples(block, SPANRAY_WORD(map_opacity), samples)) return;
-  read_samples<4>(block, SPANRAY_WORD(map_opacity), samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-    const F32 opacity = F32::load(block.out.opacity + g.at);
-    put(g, block.out.opacity, select(map.active, clamp_(opacity * scalar_of(scene, map, raw), F32::zero(), f32(1.0f)), opacity));
-  });
 }
 
 HWY_INLINE V3f bumped_normal(const Group& g, const UvLanes& uv, V3f normal) {
@@ -107,14 +80,19 @@ HWY_INLINE void bump_normals(const SurfaceBlock& block) {
 
 // What the maps do to surfaces with the constants of their materials.
 void apply_maps(const SurfaceBlock& block) {
+  const SceneData& scene = *block.frame.scene;
+  const PlanFlags& plan = block.frame.plan;
   MapBlock samples;
-  if (block.frame.plan.bump) bump_normals(block);
-  if (block.frame.plan.textures) {
-    modulate_diffuse(block, samples);
-    modulate_specular(block, samples);
-    modulate_emission(block, samples);
-  }
-  modulate_opacity(block, samples);
+  if (plan.bump) bump_normals(block);
+  if (plan.textures) modulate_colors(block, samples);
+  if (plan.textures && plan.specular)
+    each_sample<4>(block, kShininessSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(g, map.active, block.out.shininess, scalar_of(scene, map, raw), 1e4f);
+    });
+  if (plan.translucents)
+    each_sample<4>(block, kOpacitySlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(g, map.active, block.out.opacity, scalar_of(scene, map, raw), 1.0f);
+    });
 }
 
 #undef SPANRAY_WORD

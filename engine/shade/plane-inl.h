@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-#include "shade/map_block-inl.h"
+#include "shade/surface_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -41,8 +41,7 @@ enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlane
 inline constexpr float kPositionRounding = 0x1.01p-23f, kReachRounding = 0x1.c1p-22f;
 
 inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the instruction set
-inline constexpr uint32_t kCellMask = 0xfff0fff0;  // of a pixel
-static_assert(kCellSize == 16);
+inline constexpr uint32_t kCellMask = ~(uint32_t{kCellSize - 1} * 0x10001u);  // of a pixel: x and y of its cell
 
 // Planes that a block of hits sees: field by field in lines of kPlaneLine planes.
 struct PlaneBlock {
@@ -50,7 +49,7 @@ struct PlaneBlock {
   alignas(64) float single[kBlockHits * kPlaneFloatCount];
   alignas(64) uint32_t primitive[kBlockHits + kPlaneLine];
   alignas(64) uint32_t cell[kBlockHits + kPlaneLine];
-  alignas(64) uint32_t plane_of_hit[kBlockHits + kPlaneLine];
+  alignas(64) uint32_t plane_of_hit[kBlockHits];
   int planes = 0;
 
   double* reals(int plane) { return real + plane / kPlaneLine * (kPlaneLine * kPlaneRealCount) + plane % kPlaneLine; }
@@ -202,27 +201,22 @@ class PlaneFinder {
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, int count, PlaneBlock& block) {
   block.planes = 0;
   PlaneFinder finder(block);
-  uint32_t last_primitive = 0, last_cell = 0, plane = kNoPrimitive;  // of the last plane
   for (int i = 0; i < count; i += kLanes) {
-    const I32 found = I32::load(hits.primitive.data() + at + i), cells = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
-    if (plane != kNoPrimitive && i + kLanes <= count && all((found == i32(last_primitive)) & (cells == i32(last_cell)))) {
-      i32(plane).store(block.plane_of_hit + i);
-      continue;
+    const I32 listed = I32::load(hits.primitive.data() + at + i);
+    const I32 primitive = select(listed == i32(kNoPrimitive), i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
+    uint32_t primitives[kLanes], cells[kLanes];
+    primitive.store(primitives), cell.store(cells);
+    I32 plane = i32(0);  // lanes past the last hit have the first
+    for (uint32_t left = to_bits(first_lanes(count - i)); left != 0;) {
+      const int k = __builtin_ctz(left);
+      const Mask same = (primitive == i32(primitives[k])) & (cell == i32(cells[k]));
+      plane = select(same, i32(finder.find(primitives[k], cells[k])), plane);
+      left &= ~to_bits(same);
     }
-    for (int k = i; k < i + kLanes && k < count; ++k) {
-      uint32_t primitive = hits.primitive[static_cast<size_t>(at + k)];
-      const uint32_t cell = hits.pixel[static_cast<size_t>(at + k)] & kCellMask;
-      if (primitive == kNoPrimitive) primitive = 0;
-      if (plane == kNoPrimitive || primitive != last_primitive || cell != last_cell)
-        plane = finder.find(primitive, cell), last_primitive = primitive, last_cell = cell;
-      block.plane_of_hit[k] = plane;
-    }
+    plane.store(block.plane_of_hit + i);
   }
-  // Lanes past the last hit follow it, lanes past the last plane too.
-  for (int i = 0; i < kPlaneLine; ++i) {
-    block.plane_of_hit[count + i] = block.plane_of_hit[count - 1];
+  for (int i = 0; i < kPlaneLine; ++i)  // lanes past the last plane follow it
     block.primitive[block.planes + i] = block.primitive[block.planes - 1], block.cell[block.planes + i] = block.cell[block.planes - 1];
-  }
   for (int i = 0; i < block.planes; i += kLanes) set_up_planes(frame, block, i);
 }
 

@@ -99,10 +99,12 @@ HWY_INLINE CornerNormals corner_normals(const SceneData& scene, const TriangleLa
   return {select(away, -n.n0, n.n0), select(away, -n.d1, n.d1), select(away, -n.d2, n.d2)};
 }
 
-// Unit; the geometric normal where opposed corners leave nothing.
+// Of a blend of corner normals: unit; the geometric normal where opposed corners leave nothing.
+HWY_INLINE V3f unit_normal(const V3f& blend, const V3f& geometric) { return unit_or(blend, 1e-6f, geometric); }
+
 HWY_INLINE V3f interpolated_normal(const CornerNormals& n, F32 b1, F32 b2, const V3f& geometric) {
   const auto blend = [&](F32 n0, F32 d1, F32 d2) HWY_ATTR { return mul_add(b2, d2, mul_add(b1, d1, n0)); };
-  return unit_or({blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)}, 1e-6f, geometric);
+  return unit_normal({blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)}, geometric);
 }
 
 }  // namespace surface_lanes

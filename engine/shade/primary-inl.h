@@ -20,6 +20,12 @@ template <int kCount> struct FewPlanes {
   const float* single[kCount];
   const double* real[kCount];
   Mask lanes[kCount];  // not of the first
+
+  template <int kFirst> HWY_INLINE FewPlanes<kFirst> first() const {
+    FewPlanes<kFirst> r;
+    for (int i = 0; i < kFirst; ++i) r.single[i] = single[i], r.real[i] = real[i], r.lanes[i] = lanes[i];
+    return r;
+  }
   HWY_INLINE F32 f(int field) const {
     F32 r = f32(single[0][field * kPlaneLine]);
     for (int i = 1; i < kCount; ++i) r = select(lanes[i], f32(single[i][field * kPlaneLine]), r);
@@ -102,7 +108,7 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   good = good & (dot(point.geometric, point.geometric) > zero);
   point.normal = point.geometric;
   if (frame.settings.shading != Shading::kFlat)
-    point.normal = unit_or(plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), 1e-6f, point.geometric);
+    point.normal = unit_normal(plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
   const F32 single_x = to_f32(step_x), single_y = to_f32(step_y);
   if (frame.plan.bounces) {
     const F32 side = f32(static_cast<float>(frame.footprint));
@@ -134,10 +140,8 @@ HWY_INLINE Mask primary_point(const Frame& frame, PlaneBlock& block, int hit, I3
     few.lanes[count] = plane == i32(first);
     left &= ~to_bits(few.lanes[count]);
   }
-  if (count == 1) return primary_point(frame, FewPlanes<1>{{few.single[0]}, {few.real[0]}, {few.lanes[0]}}, pixel, offset, point);
-  if (count == 2)
-    return primary_point(frame, FewPlanes<2>{{few.single[0], few.single[1]}, {few.real[0], few.real[1]}, {few.lanes[0], few.lanes[1]}}, pixel,
-                         offset, point);
+  if (count == 1) return primary_point(frame, few.first<1>(), pixel, offset, point);
+  if (count == 2) return primary_point(frame, few.first<2>(), pixel, offset, point);
   for (; count < kMost; ++count) few.single[count] = few.single[0], few.real[count] = few.real[0], few.lanes[count] = few.lanes[0];
   return primary_point(frame, few, pixel, offset, point);
 }

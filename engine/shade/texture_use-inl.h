@@ -106,8 +106,8 @@ HWY_INLINE UseLanes open_use(const SceneData& scene, I32 index, bool uniform, Ma
   use.height = use.texture_word(scene, 1);
   use.clamp = use.word(scene, kUseClamp) != i32(0);
   use.any_clamp = any(use.clamp);
-  const I32 one_less = i32(-1);
-  use.masks = !use.any_clamp && all(((use.width & (use.width + one_less)) | (use.height & (use.height + one_less))) == i32(0));
+  const auto without_lowest_bit = [](I32 size) HWY_ATTR { return size & (size - i32(1)); };  // 0: a power of two
+  use.masks = !use.any_clamp && all((without_lowest_bit(use.width) | without_lowest_bit(use.height)) == i32(0));
   const F32 scale_u = use.real(scene, kUseScale), scale_v = use.real(scene, kUseScale + 1);
   const F32 offset_u = use.real(scene, kUseOffset), offset_v = use.real(scene, kUseOffset + 1), one = f32(1.0f), zero = F32::zero();
   use.s = fraction(uv.u), use.t = one - fraction(uv.v);

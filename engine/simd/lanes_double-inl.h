@@ -66,26 +66,19 @@ HWY_INLINE F64 min_(F64 a, F64 b) { return select_lt(a, b, a, b); }
 HWY_INLINE F64 max_(F64 a, F64 b) { return select_lt(b, a, a, b); }
 #endif
 
-HWY_INLINE F64 to_f64(F32 a) {
+// Half: the tag of half a vector of V.
+template <class Half, class V> HWY_INLINE F64 promote(V v) {
   F64 r;
 #if HWY_TARGET == HWY_SCALAR
-  r.v[0] = hn::PromoteTo(DD(), a.v);
+  r.v[0] = hn::PromoteTo(DD(), v);
 #else
-  r.v[0] = hn::PromoteTo(DD(), hn::LowerHalf(DHF(), a.v));
-  r.v[1] = hn::PromoteTo(DD(), hn::UpperHalf(DHF(), a.v));
+  r.v[0] = hn::PromoteTo(DD(), hn::LowerHalf(Half(), v));
+  r.v[1] = hn::PromoteTo(DD(), hn::UpperHalf(Half(), v));
 #endif
   return r;
 }
-HWY_INLINE F64 to_f64(I32 a) {  // exact
-  F64 r;
-#if HWY_TARGET == HWY_SCALAR
-  r.v[0] = hn::PromoteTo(DD(), a.v);
-#else
-  r.v[0] = hn::PromoteTo(DD(), hn::LowerHalf(DHI(), a.v));
-  r.v[1] = hn::PromoteTo(DD(), hn::UpperHalf(DHI(), a.v));
-#endif
-  return r;
-}
+HWY_INLINE F64 to_f64(F32 a) { return promote<DHF>(a.v); }
+HWY_INLINE F64 to_f64(I32 a) { return promote<DHI>(a.v); }  // exact
 HWY_INLINE F32 to_f32(F64 a) {  // round to nearest even; overflow to infinity
 #if HWY_TARGET == HWY_SCALAR
   return {hn::Set(DF(), static_cast<float>(hn::GetLane(a.v[0])))};  // Highway's scalar DemoteTo saturates instead

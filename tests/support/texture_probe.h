@@ -6,6 +6,8 @@
 
 namespace spanray {
 
+inline constexpr Filter kFilters[] = {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear};
+
 class TextureProbe {
  public:
   // setup adds textures and sets the slots of material 0 (white, every reflectance 1).
