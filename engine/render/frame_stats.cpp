@@ -20,7 +20,7 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
   double* const ms[kTileStageCount] = {&stats.ms.raster,      &stats.ms.shade,     &stats.ms.shadow_rays,
                                        &stats.ms.bounce_rays, &stats.ms.composite, &stats.ms.encode};
   for (const auto& w : workers) {
-    for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->seconds[i] * 1e3 / threads;
+    for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->clock.seconds(i) * 1e3 / threads;
     counts.tile_triangles += w->counts.tile_triangles;
     counts.tile_triangles_hidden += w->counts.tile_triangles_hidden;
     counts.samples_passed += w->counts.samples_passed;

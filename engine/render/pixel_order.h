@@ -2,7 +2,9 @@
 // neighbours in the picture. They see the same triangles, textures and boxes.
 #pragma once
 #include <cstdint>
+#include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace spanray {
@@ -17,28 +19,37 @@ class PixelOrder {
   // Where the pixel at (x, y) of the chunk is.
   int32_t slot(int x, int y) const { return slot_[static_cast<size_t>(y * columns_ + x)]; }
 
+  // By slot: pixel() of a chunk that begins at pixel `first`.
+  void name_pixels(uint32_t first, uint32_t* slots) const {
+    const uint32_t* const offset = pixel_.data();
+    for (size_t i = 0, n = pixel_.size(); i < n; ++i) slots[i] = first + offset[i];
+  }
+
   // rows: `stride` entries a row.
   template <class T> void from_rows(const T* rows, int stride, T* slots) const {
-    each_run([&](size_t slot, int x, int y, size_t n) { std::memcpy(slots + slot, rows + y * stride + x, n * sizeof(T)); });
+    each_run([=](size_t slot, ptrdiff_t x, ptrdiff_t y, auto n) { std::memcpy(slots + slot, rows + y * stride + x, n * sizeof(T)); });
   }
   template <class T> void to_rows(const T* slots, int stride, T* rows) const {
-    each_run([&](size_t slot, int x, int y, size_t n) { std::memcpy(rows + y * stride + x, slots + slot, n * sizeof(T)); });
+    each_run([=](size_t slot, ptrdiff_t x, ptrdiff_t y, auto n) { std::memcpy(rows + y * stride + x, slots + slot, n * sizeof(T)); });
   }
   size_t memory_bytes() const { return (pixel_.capacity() + slot_.capacity()) * sizeof(uint32_t); }
 
  private:
   // Runs of pixels that are neighbours both in slots and in a row.
   template <class Copy> void each_run(const Copy& copy) const {
-    if (columns_ % kRun == 0) {
-      for (size_t i = 0; i < pixel_.size(); i += kRun)
-        copy(i, static_cast<int>(pixel_[i] & 0xffff), static_cast<int>(pixel_[i] >> 16), kRun);
+    const auto x = [](uint32_t pixel) { return static_cast<ptrdiff_t>(pixel & 0xffff); };
+    const auto y = [](uint32_t pixel) { return static_cast<ptrdiff_t>(pixel >> 16); };
+    const uint32_t* const pixel = pixel_.data();  // no members in the loops: what is copied might change them
+    const size_t pixels = pixel_.size();
+    if (columns_ % kBlock == 0 && rows_ % kBlock == 0) {
+      for (size_t i = 0; i < pixels; i += kBlock * kBlock)
+        for (size_t row = 0; row < kBlock; ++row) copy(i + row * kBlock, x(pixel[i]), y(pixel[i]) + static_cast<ptrdiff_t>(row), std::integral_constant<size_t, kBlock>{});
     } else {
-      for (size_t i = 0; i < pixel_.size(); ++i) copy(i, static_cast<int>(pixel_[i] & 0xffff), static_cast<int>(pixel_[i] >> 16), 1);
+      for (size_t i = 0; i < pixels; ++i) copy(i, x(pixel[i]), y(pixel[i]), std::integral_constant<size_t, 1>{});
     }
   }
 
-  static constexpr int kBlock = 4;      // side of a block
-  static constexpr size_t kRun = kBlock;  // neighbours in a row of it
+  static constexpr int kBlock = 4;  // side of a block
   int columns_ = 0, rows_ = 0;
   std::vector<uint32_t> pixel_;
   std::vector<int32_t> slot_;

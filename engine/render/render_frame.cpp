@@ -46,6 +46,7 @@ struct Renderer::Impl {
   SceneUse use;
   std::vector<uint32_t> tree_flags;
   std::unique_ptr<Bvh> opaque, translucent;
+  std::unique_ptr<LitVertexCache> lit_vertices;
   double bvh_build_ms = 0;
   ScreenVertices vertices;
   TileBins bins;
@@ -56,7 +57,7 @@ struct Renderer::Impl {
       parallel = std::make_unique<Parallel>(threads);
     while (workers.size() < static_cast<size_t>(parallel->threads())) workers.push_back(std::make_unique<TileWorker>());
     if (scene.valid() && &scene.data() == &new_scene.data()) return;
-    opaque.reset(), translucent.reset();
+    opaque.reset(), translucent.reset(), lit_vertices.reset();
     bvh_build_ms = 0;
     use = find_scene_use(new_scene.data());
     scene = new_scene;
@@ -83,6 +84,7 @@ struct Renderer::Impl {
     size_t bytes = vertices.memory_bytes() + bins.memory_bytes();
     if (opaque) bytes += opaque->memory_bytes();
     if (translucent) bytes += translucent->memory_bytes();
+    if (lit_vertices) bytes += lit_vertices->memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
     return bytes;
   }
@@ -112,11 +114,11 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   } else {
     counts.triangles_in = scene.data().triangles.size();
   }
-  std::unique_ptr<LitVertexCache> lit_vertices;
-  if (plan.flags.lit_vertices)
-    lit_vertices = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
+  if (!plan.flags.lit_vertices) lit_vertices.reset();
+  else if (!lit_vertices) lit_vertices = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
+  else lit_vertices->reset();
 
-  for (const auto& w : workers) w->counts = {}, w->seconds = {};
+  for (const auto& w : workers) w->counts = {}, w->clock.reset();
   const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, opaque.get(), translucent.get(), lit_vertices.get(), out, request};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
@@ -127,7 +129,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   add_worker_stats(workers, parallel->threads(), counts, stats);
   if (lit_vertices) counts.vertices_lit = lit_vertices->lit_count();
   add_counts(counts, stats);
-  stats.memory_bytes = memory_bytes() + (lit_vertices ? lit_vertices->memory_bytes() : 0);
+  stats.memory_bytes = memory_bytes();
   stats.isa = isa_name(frame.isa);
   stats.threads = parallel->threads();
   return stats;

@@ -21,7 +21,7 @@ int chunk_rows(const Frame& frame) {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
-  const StageTimer timer(w, TileStage::kRaster);
+  w.clock.enter(TileStage::kRaster);
   if (job.bins != nullptr) {
     const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
     w.pixel_order.from_rows(w.visible.primitive + row0 * kTileSize, kTileSize, level.primitive.data());
@@ -34,63 +34,80 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   }
 }
 
-// True if each slot of a level of primary rays hit something: hits are then slots.
-bool hits_are_slots(const Level& level, bool primary) { return primary && level.hits.count == level.slots; }
-
-// The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture; hits of
-// other rays are grouped by what they hit.
-void compact_hits(TileWorker& w, Level& level, bool primary) {
-  if (primary) {
-    level.slot_of_hit.resize(static_cast<size_t>(level.slots));
-    size_t hits = 0;
-    for (uint32_t slot = 0; slot < static_cast<uint32_t>(level.slots); ++slot) {
-      level.slot_of_hit[hits] = slot;
-      hits += level.primitive[slot] != kNoPrimitive;
-    }
-    level.slot_of_hit.resize(hits);
-  } else {
-    w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
+// The slots of primary rays that hit something, with what they hit.
+void pick_hits(Level& level) {
+  const size_t slots = static_cast<size_t>(level.slots);
+  const uint32_t* const primitive = level.primitive.data();
+  const uint32_t* const pixel = level.pixel.data();
+  level.slot_of_hit.resize(slots);
+  level.hits.resize(level.slots, false);
+  uint32_t* const hit_slot = level.slot_of_hit.data();
+  uint32_t* const hit_primitive = level.hits.primitive.data();
+  uint32_t* const hit_pixel = level.hits.pixel.data();
+  size_t misses = 0, hits = 0;
+  for (size_t slot = 0; slot < slots; ++slot) misses += primitive[slot] == kNoPrimitive;
+  if (misses == 0) {
+    for (size_t slot = 0; slot < slots; ++slot) hit_slot[slot] = static_cast<uint32_t>(slot);
+    std::copy_n(primitive, slots, hit_primitive), std::copy_n(pixel, slots, hit_pixel);
+    return;
   }
-  const int n = static_cast<int>(level.slot_of_hit.size());
-  level.hits.resize(n, true);
-  const uint32_t* const slots = level.slot_of_hit.data();
-  std::copy_n(slots, n, level.hits.ray.data());
-  const auto pick = [&](const AlignedBuffer<uint32_t>& from, AlignedBuffer<uint32_t>& to) {
-    if (hits_are_slots(level, primary)) std::copy_n(from.data(), n, to.data());
-    else for (size_t i = 0; i < static_cast<size_t>(n); ++i) to[i] = from[slots[i]];
-  };
-  pick(level.pixel, level.hits.pixel);
-  pick(level.primitive, level.hits.primitive);
-  level.hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
-  if (!level.place.empty()) pick(level.place, level.hits.place);
+  for (size_t slot = 0; slot < slots && misses < slots; ++slot) {
+    hit_slot[hits] = static_cast<uint32_t>(slot);
+    hit_primitive[hits] = primitive[slot];
+    hit_pixel[hits] = pixel[slot];
+    hits += primitive[slot] != kNoPrimitive;
+  }
+  level.slot_of_hit.resize(hits);
+  level.hits.resize(static_cast<int>(hits), false);
+}
+
+// The slots of other rays that hit something, grouped by what they hit.
+void group_hits(TileWorker& w, Level& level) {
+  w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
+  const size_t n = level.slot_of_hit.size();
+  level.hits.resize(static_cast<int>(n), true);
+  for (size_t i = 0; i < n; ++i) {
+    const uint32_t slot = level.slot_of_hit[i];
+    level.hits.ray[i] = slot, level.hits.pixel[i] = level.pixel[slot], level.hits.primitive[i] = level.primitive[slot];
+  }
+}
+
+// The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture.
+void compact_hits(TileWorker& w, Level& level, bool primary) {
+  if (primary) pick_hits(level);
+  else group_hits(w, level);
+  level.hits.place.resize(level.place.empty() ? 0 : level.slot_of_hit.size());
+  for (size_t i = 0; i < level.hits.place.size(); ++i) level.hits.place[i] = level.place[level.slot_of_hit[i]];
   level.hits.rays = primary ? nullptr : &level.rays;
+}
+
+// What a batch of hits says, to their slots; what misses say, to all others.
+void scatter_hits(const FrameJob& job, const TileWorker& w, Level& level, bool primary) {
+  const float* from[4] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data(), level.surfaces.t};
+  float* to[4] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data(), level.opaque_t.data()};
+  const float* const background = job.frame.scene->background;
+  const float miss[4] = {background[0], background[1], background[2], kInfinity};
+  const bool all = primary && level.hits.count == level.slots;  // hits are then slots
+  for (int k = 0; k < 4; ++k) {
+    if (all) std::copy_n(from[k], level.slots, to[k]);
+    else std::fill_n(to[k], level.slots, miss[k]);
+  }
+  for (int i = 0; i < level.hits.count && !all; ++i)
+    for (int k = 0; k < 4; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
 }
 
 // Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others.
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
-  {
-    const StageTimer timer(w, TileStage::kShade);
-    compact_hits(w, level, primary);
-    resolve_surfaces(job.frame, level.hits, level.surfaces);
-  }
+  w.clock.enter(TileStage::kShade);
+  compact_hits(w, level, primary);
+  resolve_surfaces(job.frame, level.hits, level.surfaces);
   light_surfaces(job, w, level.surfaces, level.hits, primary);
-  const StageTimer timer(w, TileStage::kShade);
-  const uint32_t* const slot_of_hit = level.slot_of_hit.data();
-  const auto scatter = [&](const float* from, float miss, float* to) {
-    if (hits_are_slots(level, primary)) {
-      std::copy_n(from, level.slots, to);
-    } else {
-      std::fill_n(to, level.slots, miss);
-      for (int i = 0; i < level.hits.count; ++i) to[slot_of_hit[i]] = from[i];
-    }
-  };
-  for (int c = 0; c < 3; ++c) scatter(w.radiance[c].data(), job.frame.scene->background[c], level.radiance[c].data());
-  scatter(level.surfaces.t, kInfinity, level.opaque_t.data());
+  scatter_hits(job, w, level, primary);
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
 void pick_fragments(const Chunk& chunk, TileWorker& w) {
-  const StageTimer timer(w, TileStage::kRaster);
+  w.clock.enter(TileStage::kRaster);
   FragmentList& list = w.chunk_fragments;
   for (size_t i = 0; i < w.fragments.pixel.size(); ++i) {
     const int x = static_cast<int>(w.fragments.pixel[i] & 0xffff), y = static_cast<int>(w.fragments.pixel[i] >> 16);
@@ -104,7 +121,7 @@ void pick_fragments(const Chunk& chunk, TileWorker& w) {
 
 // The translucent surfaces that the level's rays pass through, with their slots.
 void trace_fragments(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
-  const StageTimer timer(w, TileStage::kBounceRays);
+  w.clock.enter(TileStage::kBounceRays);
   // A little beyond the opaque hit, since t of the tracer and t of resolve round differently; composite decides by the latter.
   const float start = primary ? static_cast<float>(job.frame.primary.near_plane) : 0.0f;
   for (int i = 0; i < level.slots; ++i) level.rays.t_max[i] = (level.opaque_t[i] - start) * 1.00001f;
@@ -126,21 +143,18 @@ void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bo
   const FragmentList& list = w.chunk_fragments;
   const int n = static_cast<int>(list.primitive.size());
   if (n == 0) return;
+  w.clock.enter(TileStage::kComposite);
   w.counts.fragments_translucent += static_cast<uint64_t>(n);
-  {
-    const StageTimer timer(w, TileStage::kComposite);
-    HitBatch& hits = w.fragment_hits;
-    hits.resize(n, true);
-    std::copy_n(list.pixel.data(), n, hits.pixel.data());
-    std::copy_n(list.ray.data(), n, hits.ray.data());
-    std::copy_n(list.primitive.data(), n, hits.primitive.data());
-    hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
-    for (size_t i = 0; i < hits.place.size(); ++i) hits.place[i] = level.place[static_cast<size_t>(w.fragment_slot[i])];
-    hits.rays = primary ? nullptr : &level.rays;
-    resolve_surfaces(job.frame, hits, w.fragment_surfaces);
-  }
-  light_surfaces(job, w, w.fragment_surfaces, w.fragment_hits, primary);
-  const StageTimer timer(w, TileStage::kComposite);
+  HitBatch& hits = w.fragment_hits;
+  hits.resize(n, true);
+  std::copy_n(list.pixel.data(), n, hits.pixel.data());
+  std::copy_n(list.ray.data(), n, hits.ray.data());
+  std::copy_n(list.primitive.data(), n, hits.primitive.data());
+  hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
+  for (size_t i = 0; i < hits.place.size(); ++i) hits.place[i] = level.place[static_cast<size_t>(w.fragment_slot[i])];
+  hits.rays = primary ? nullptr : &level.rays;
+  resolve_surfaces(job.frame, hits, w.fragment_surfaces);
+  light_surfaces(job, w, w.fragment_surfaces, hits, primary);
   const float* fragment_radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
   float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
   composite(w.fragment_surfaces, w.fragment_slot.data(), fragment_radiance, level.opaque_t.data(), level.slots, radiance,
@@ -149,7 +163,7 @@ void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bo
 
 // The next level: one slot for each mirror ray. Returns false if there is none.
 bool start_bounce(const FrameJob& job, TileWorker& w, Level& level, Level& next) {
-  const StageTimer timer(w, TileStage::kBounceRays);
+  w.clock.enter(TileStage::kBounceRays);
   next.rays.count = 0;
   w.surface_of_ray.clear();
   make_bounce_rays(job.frame, level.surfaces, level.hits, next.rays, w.surface_of_ray);
@@ -197,7 +211,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   if (samples) {
     rasterize_samples(job, tile, w);
   } else if (job.bins != nullptr) {
-    const StageTimer timer(w, TileStage::kRaster);
+    w.clock.enter(TileStage::kRaster);
     rasterize_tile(job.frame, *job.bins, tile, w.visible);
     w.counts.add(w.visible);
     w.fragments.clear();
@@ -214,8 +228,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
       find_sample_slots(job, chunk, w, level);
     } else {
       w.pixel_order.make(chunk.columns, chunk.y1 - chunk.y0);
-      const uint32_t first = pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(y0));
-      for (int i = 0; i < level.slots; ++i) level.pixel[i] = first + w.pixel_order.pixel()[static_cast<size_t>(i)];
+      w.pixel_order.name_pixels(pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(y0)), level.pixel.data());
       find_primary_hits(job, chunk, w, level);
     }
     shade_levels(job, w, chunk);
@@ -223,6 +236,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
     if (!samples) w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
     write_chunk(job, w, level, chunk);
   }
+  w.clock.stop();
 }
 
 void Level::resize(int n, bool translucents) {

@@ -1,6 +1,5 @@
 // One tile, from visibility to bytes: the loop of DESIGN 1. Everything a tile makes lives in the worker that makes it.
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -8,16 +7,13 @@
 #include "ray/bvh.h"
 #include "render/hit_order.h"
 #include "render/pixel_order.h"
+#include "render/stage_clock.h"
 #include "render/tile_samples.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 #include "spanray/render.h"
 
 namespace spanray {
-
-// Stages inside a tile that are timed.
-enum class TileStage { kRaster, kShade, kShadowRays, kBounceRays, kComposite, kEncode };
-inline constexpr int kTileStageCount = 6;
 
 // Rows of pixels shaded at once, at the most: their surfaces fit the second-level cache.
 inline constexpr int kChunkRows = kCellSize;
@@ -67,7 +63,7 @@ struct TileWorker {
   AlignedBuffer<uint32_t> row_primitive, encoded;
   HitOrder order;                                 // of hits of bounce rays
   FrameCounts counts;
-  std::array<double, kTileStageCount> seconds{};
+  StageClock clock;
   size_t memory_bytes() const;
 };
 

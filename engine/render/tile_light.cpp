@@ -7,7 +7,7 @@ namespace {
 
 // One bit a surface: set where the light is seen. Surfaces that the light cannot reach get no ray and no bit.
 const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch& surfaces, int light) {
-  const StageTimer timer(w, TileStage::kShadowRays);
+  const TileStage stage = w.clock.enter(TileStage::kShadowRays);
   w.shadow_rays.count = 0;
   w.surface_of_ray.clear();
   make_shadow_rays(job.frame, surfaces, light, w.shadow_rays, w.surface_of_ray);
@@ -20,6 +20,7 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
     const uint32_t seen = ~(w.occluded[static_cast<size_t>(i) / 32] >> (i % 32)) & 1u, surface = w.surface_of_ray[i];
     w.lit[surface / 32] |= seen << (surface % 32);
   }
+  w.clock.enter(stage);
   return w.lit.data();
 }
 
@@ -27,19 +28,15 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
 
 void light_surfaces(const FrameJob& job, TileWorker& w, const SurfaceBatch& surfaces, const HitBatch& hits, bool primary) {
   float* radiance[3];
-  {
-    const StageTimer timer(w, TileStage::kShade);
-    for (int c = 0; c < 3; ++c) {
-      w.radiance[c].resize(static_cast<size_t>(surfaces.count) + 64);  // whole vectors are written
-      radiance[c] = w.radiance[c].data();
-    }
-    shade_ambient(job.frame, surfaces, radiance);
+  for (int c = 0; c < 3; ++c) {
+    w.radiance[c].resize(static_cast<size_t>(surfaces.count) + 64);  // whole vectors are written
+    radiance[c] = w.radiance[c].data();
   }
+  shade_ambient(job.frame, surfaces, radiance);
   if (surfaces.count == 0) return;
   for (int light = 0; light < static_cast<int>(job.frame.scene->lights.size()); ++light) {
     const uint32_t* lit = job.frame.plan.shadow_rays ? find_lit(job, w, surfaces, light) : nullptr;
     if (job.request.ladder != nullptr && lit != nullptr) mix_shadow_bits(job, surfaces, hits, lit, light);
-    const StageTimer timer(w, TileStage::kShade);
     shade_light(job.frame, surfaces, hits, light, lit, primary ? job.lit_vertices : nullptr, radiance);
   }
 }

@@ -83,7 +83,7 @@ void write_extras(const FrameJob& job, const ChunkPixels& pixels, const Chunk& c
 }  // namespace
 
 void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
-  const StageTimer timer(w, TileStage::kEncode);
+  w.clock.enter(TileStage::kEncode);
   const bool samples = !level.place.empty();
   if (samples) resolve_samples(chunk, level, w);
   encode_chunk(job, w, level, chunk);

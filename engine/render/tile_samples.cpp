@@ -47,7 +47,7 @@ void trace_layers(const FrameJob& job, const SampleHits& seen, FragmentList& out
 
 // The other engine: traces a chunk once a sample.
 void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
-  const StageTimer timer(w, TileStage::kRaster);
+  w.clock.enter(TileStage::kRaster);
   SampleHits& seen = *w.samples;
   const SamplePlaces& places = job.frame.places;
   for (int y = chunk.y0, i = 0; y < chunk.y1; ++y)
@@ -213,7 +213,7 @@ void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
   if (!w.samples) w.samples = std::make_unique<SampleHits>();
   w.samples->primitive.resize(static_cast<size_t>(places.count) * kSamplePlane);
   if (job.bins == nullptr) return;
-  const StageTimer timer(w, TileStage::kRaster);
+  w.clock.enter(TileStage::kRaster);
   for (int s = 0; s < places.count; ++s) {
     rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
     w.counts.add(w.visible);
@@ -229,7 +229,7 @@ void find_sample_slots(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   const int samples = job.frame.places.count;
   const bool translucents = job.frame.plan.translucents, one_each = job.frame.settings.antialiasing == Antialiasing::kSupersample;
   if (job.bins == nullptr) trace_samples(job, chunk, w, level);
-  const StageTimer timer(w, TileStage::kRaster);
+  w.clock.enter(TileStage::kRaster);
   w.chunk_fragments.clear(), w.fragment_slot.clear();
   const bool fragments = translucents && index_fragments(chunk, samples, seen);
   level.resize(chunk.pixels() * samples, translucents);

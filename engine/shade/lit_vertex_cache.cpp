@@ -5,6 +5,11 @@
 #include "shade/light_kernel.h"
 
 namespace spanray {
+namespace {
+
+constexpr int kSpan = 256;  // surfaces whose vertices are lit at once
+
+}  // namespace
 
 LitVertexCache::Impl::Impl(size_t vertex_count, size_t light_count)
     : vertices(vertex_count), lights(light_count), states(new std::atomic<uint32_t>[vertex_count]()),
@@ -21,46 +26,32 @@ void LitVertexCache::Impl::wait_for(uint32_t vertex) const {
 }
 
 void LitVertexCache::Impl::light_vertices_of(const Frame& frame, const SurfaceBatch& surfaces) {
-  constexpr int kChunk = 96;  // vertices lit at once
-  uint32_t claimed[kChunk + 16] = {}, material[kChunk + 16] = {};
-  int count = 0;
-  const auto light_claimed = [&] {
-    kLightVertices[isa_index(frame.isa)](frame, claimed, material, count, values.data(), stride());
-    for (int k = 0; k < count; ++k) states[claimed[k]].store(2 * epoch + 1, std::memory_order_release);
-    lit.fetch_add(static_cast<uint64_t>(count), std::memory_order_relaxed);
-    count = 0;
-  };
-  const auto for_each_triangle = [&](const auto& body) {
-    uint32_t previous = kNoPrimitive;  // neighbours in a batch mostly see the same triangle
-    for (int i = 0; i < surfaces.count; ++i) {
+  uint32_t previous = kNoPrimitive;  // neighbours in a batch mostly see the same triangle
+  for (int begin = 0; begin < surfaces.count; begin += kSpan) {
+    const int end = begin + kSpan < surfaces.count ? begin + kSpan : surfaces.count;
+    uint32_t claimed[3 * kSpan + 16], material[3 * kSpan + 16], awaited[3 * kSpan];  // claimed, material: read one vector past the end
+    int claims = 0, others = 0;
+    ClaimGuard guard(abandoned);
+    for (int i = begin; i < end; ++i) {
       if (surfaces.valid[i] == 0 || surfaces.primitive[i] == previous) continue;
       previous = surfaces.primitive[i];
-      body(frame.scene->triangles[previous]);
-    }
-  };
-
-  // A task first lights all that it claimed and only then waits for others: no two tasks can wait for each other.
-  bool wait = false;
-  ClaimGuard guard(abandoned);
-  for_each_triangle([&](const Triangle& triangle) {
-    for (const uint32_t vertex : triangle.vertex) {
-      if (is_lit(vertex)) continue;
-      if (!try_claim(vertex)) {
-        wait = true;
-        continue;
+      const Triangle& triangle = frame.scene->triangles[previous];
+      for (const uint32_t vertex : triangle.vertex) {
+        if (is_lit(vertex)) continue;
+        if (try_claim(vertex)) claimed[claims] = vertex, material[claims++] = material_of(triangle);
+        else awaited[others++] = vertex;  // claimed here or by another task
       }
-      claimed[count] = vertex;
-      material[count++] = material_of(triangle);
-      if (count == kChunk) light_claimed();
     }
-  });
-  if (count > 0) light_claimed();
-  guard.release();
-  if (!wait) return;
-  for_each_triangle([&](const Triangle& triangle) {
-    for (const uint32_t vertex : triangle.vertex)
-      wait_for(vertex);
-  });
+    // A task first lights all that it claimed and only then waits for others: no two tasks can wait for each other.
+    if (claims > 0) {
+      for (int k = claims; k < claims + 16; ++k) claimed[k] = material[k] = 0;
+      kLightVertices[isa_index(frame.isa)](frame, claimed, material, claims, values.data(), stride());
+      for (int k = 0; k < claims; ++k) states[claimed[k]].store(2 * epoch + 1, std::memory_order_release);
+      lit.fetch_add(static_cast<uint64_t>(claims), std::memory_order_relaxed);
+    }
+    guard.release();
+    for (int k = 0; k < others; ++k) wait_for(awaited[k]);
+  }
 }
 
 LitVertexCache::LitVertexCache(size_t vertices, size_t lights) : impl_(std::make_unique<Impl>(vertices, lights)) {}
