@@ -25,7 +25,8 @@ inline constexpr float kMinLength = 0x1p-62f;
 template <class F> SPANRAY_FORMULA Vec3<F> divide_or_zero(const Vec3<F>& a, F length) {
   const F zero = number<F>(0.0f);
   const auto exists = length >= number<F>(kMinLength);
-  return {select(exists, a.x / length, zero), select(exists, a.y / length, zero), select(exists, a.z / length, zero)};
+  const F inverse = number<F>(1.0f) / select(exists, length, number<F>(1.0f));
+  return {select(exists, a.x * inverse, zero), select(exists, a.y * inverse, zero), select(exists, a.z * inverse, zero)};
 }
 
 // Cosines between the unit vectors n (shading normal), l (to the light), v (to the viewer), h (half-way between l and v).

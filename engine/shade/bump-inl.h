@@ -88,7 +88,8 @@ HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 inde
 //           one texel of level 0 is a slope of 1 for bm = 1. Differences are central, of bilinear samples half a texel to
 //           either side, on the level of the footprint; trilinear blends the slopes of two levels.
 // Contract: exactly n where the slope or bm is 0, or where there is no tangent.
-HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
+HWY_INLINE V3f apply_height_map(const SceneData& scene, UseLanes use, Filter filter, const UvLanes& uv, const V3f& n) {
+  find_masks(use);
   const LevelLanes levels = choose_levels(scene, use, filter);
   SlopeLanes slope = level_slope(scene, use, levels.level);
   if (levels.blend) {

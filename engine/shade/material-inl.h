@@ -1,5 +1,4 @@
-// Maps of the materials of resolved hits, one after the other for a block of surfaces. Include inside a
-// *_kernel.cpp.
+// Materials of resolved hits: their constants, and what maps do to them. Include inside a *_kernel.cpp.
 #if defined(SPANRAY_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_MATERIAL_INL_H_
 #undef SPANRAY_MATERIAL_INL_H_
@@ -8,52 +7,61 @@
 #endif
 
 #include "shade/bump-inl.h"
-#include "shade/map_block-inl.h"
+#include "shade/surface_group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
 namespace HWY_NAMESPACE {
 namespace surface_lanes {
 
-HWY_INLINE V3f load3(const Group& g, float* const field[3]) {
-  return {F32::load(field[0] + g.at), F32::load(field[1] + g.at), F32::load(field[2] + g.at)};
+// A kind of map: its word in Material, and its bit in PlanFlags::maps.
+struct MapSlot { int word; MaterialMaps bit; };
+inline constexpr MapSlot kAmbientSlot{SPANRAY_WORD(map_ambient), kMapAmbient}, kDiffuseSlot{SPANRAY_WORD(map_diffuse), kMapDiffuse},
+    kSpecularSlot{SPANRAY_WORD(map_specular), kMapSpecular}, kShininessSlot{SPANRAY_WORD(map_shininess), kMapShininess},
+    kEmissionSlot{SPANRAY_WORD(map_emission), kMapEmission}, kOpacitySlot{SPANRAY_WORD(map_opacity), kMapOpacity};
+
+// visit(map lanes, raw sample) if some lane has a map of this kind.
+template <int kChannels, class Visit> HWY_INLINE void sample_map(const Group& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
+  if ((g.frame.plan.maps & slot.bit) == 0) return;
+  const SceneData& scene = *g.frame.scene;
+  const I32 map = material_map(g, slot.word);
+  if (!has_use(scene, map, g.valid)) return;
+  const UseLanes use = open_use(scene, map, g.material.uniform, g.valid, uv);
+  visit(use, sample<kChannels>(scene, use, g.frame.settings.filter));
 }
 
-// field times the map, in lanes that have it.
-HWY_INLINE void modulate(const Group& g, Mask active, float* const field[3], const V3f& map) {
-  const V3f color = load3(g, field);
-  put(g, field, select(active, V3f{color.x * map.x, color.y * map.y, color.z * map.z}, color));
+// color times the map, in lanes that have it.
+HWY_INLINE void modulate(Mask active, V3f& color, const V3f& map) {
+  color = select(active, V3f{color.x * map.x, color.y * map.y, color.z * map.z}, color);
 }
 
-// field times the map, held in [0, most], in lanes that have it.
-HWY_INLINE void modulate(const Group& g, Mask active, float* field, F32 map, float most) {
-  const F32 value = F32::load(field + g.at);
-  put(g, field, select(active, clamp_(value * map, F32::zero(), f32(most)), value));
+// value times the map, held in [0, most], in lanes that have it.
+HWY_INLINE void modulate(Mask active, F32& value, F32 map, float most) {
+  value = select(active, clamp_(value * map, F32::zero(), f32(most)), value);
 }
 
 // Diffuse and ambient share map_Kd unless there is a map_Ka. Specular and mirror share map_Ks: the mirror weight comes from Ks.
-HWY_INLINE void modulate_colors(const SurfaceBlock& block, MapBlock& samples) {
-  const SceneData& scene = *block.frame.scene;
-  const PlanFlags& plan = block.frame.plan;
-  const SurfaceBatch& out = block.out;
-  each_sample<3>(block, kDiffuseSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+HWY_INLINE void modulate_colors(const Group& g, const UvLanes& uv, MaterialLanes& m) {
+  const SceneData& scene = *g.frame.scene;
+  const PlanFlags& plan = g.frame.plan;
+  sample_map<3>(g, uv, kDiffuseSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
     const V3f color = color_of(scene, map, raw);
-    modulate(g, map.active, out.diffuse, color);
-    if (plan.ambient) modulate(g, map.active & (material_map(g, kAmbientSlot.word) < i32(0)), out.ambient, color);
+    modulate(map.active, m.diffuse, color);
+    if (plan.ambient) modulate(map.active & (material_map(g, kAmbientSlot.word) < i32(0)), m.ambient, color);
   });
   if (plan.ambient)
-    each_sample<3>(block, kAmbientSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(g, map.active, out.ambient, color_of(scene, map, raw));
+    sample_map<3>(g, uv, kAmbientSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(map.active, m.ambient, color_of(scene, map, raw));
     });
   if (plan.specular || plan.bounces)
-    each_sample<3>(block, kSpecularSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
+    sample_map<3>(g, uv, kSpecularSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
       const V3f color = color_of(scene, map, raw);
-      if (plan.specular) modulate(g, map.active, out.specular, color);
-      if (plan.bounces) modulate(g, map.active, out.mirror, color);
+      if (plan.specular) modulate(map.active, m.specular, color);
+      if (plan.bounces) modulate(map.active, m.mirror, color);
     });
   if (plan.emission)
-    each_sample<3>(block, kEmissionSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(g, map.active, out.emission, color_of(scene, map, raw));
+    sample_map<3>(g, uv, kEmissionSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(map.active, m.emission, color_of(scene, map, raw));
     });
 }
 
@@ -68,30 +76,18 @@ HWY_INLINE V3f bumped_normal(const Group& g, const UvLanes& uv, V3f normal) {
   return normal;
 }
 
-// Interpolated normals -> shading normals.
-HWY_INLINE void bump_normals(const SurfaceBlock& block) {
-  for (int i = 0; i < block.count; i += kLanes) {
-    const Group g = group_of(block, i);
-    if (!any(g.valid)) continue;
-    const V3f normal = bumped_normal(g, block.uv.load(i, true), load3(g, block.out.normal));
-    put(g, block.out.normal, clamp_to_horizon(normal, load3(g, block.out.geometric_normal)));
-  }
-}
-
-// What the maps do to surfaces with the constants of their materials.
-void apply_maps(const SurfaceBlock& block) {
-  const SceneData& scene = *block.frame.scene;
-  const PlanFlags& plan = block.frame.plan;
-  MapBlock samples;
-  if (plan.bump) bump_normals(block);
-  if (plan.textures) modulate_colors(block, samples);
+// What the maps do to the constants of the materials.
+HWY_INLINE void apply_maps(const Group& g, const UvLanes& uv, MaterialLanes& m) {
+  const SceneData& scene = *g.frame.scene;
+  const PlanFlags& plan = g.frame.plan;
+  if (plan.textures) modulate_colors(g, uv, m);
   if (plan.textures && plan.specular)
-    each_sample<4>(block, kShininessSlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(g, map.active, block.out.shininess, scalar_of(scene, map, raw), 1e4f);
+    sample_map<4>(g, uv, kShininessSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(map.active, m.shininess, scalar_of(scene, map, raw), 1e4f);
     });
   if (plan.translucents)
-    each_sample<4>(block, kOpacitySlot, samples, [&](const Group& g, const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(g, map.active, block.out.opacity, scalar_of(scene, map, raw), 1.0f);
+    sample_map<4>(g, uv, kOpacitySlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
+      modulate(map.active, m.opacity, scalar_of(scene, map, raw), 1.0f);
     });
 }
 

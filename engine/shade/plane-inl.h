@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-#include "shade/surface_block-inl.h"
+#include "shade/surface_group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -40,16 +40,17 @@ enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlane
 // along the triangle.
 inline constexpr float kPositionRounding = 0x1.01p-23f, kReachRounding = 0x1.c1p-22f;
 
+inline constexpr int kPlaneHits = 1024;  // those of a chunk: the more, the fewer lanes are idle when planes are set up
 inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the instruction set
 inline constexpr uint32_t kCellMask = ~(uint32_t{kCellSize - 1} * 0x10001u);  // of a pixel: x and y of its cell
 
-// Planes that a block of hits sees: field by field in lines of kPlaneLine planes.
+// Planes that kPlaneHits hits see: field by field in lines of kPlaneLine planes.
 struct PlaneBlock {
-  alignas(64) double real[kBlockHits * kPlaneRealCount];
-  alignas(64) float single[kBlockHits * kPlaneFloatCount];
-  alignas(64) uint32_t primitive[kBlockHits + kPlaneLine];
-  alignas(64) uint32_t cell[kBlockHits + kPlaneLine];
-  alignas(64) uint32_t plane_of_hit[kBlockHits];
+  alignas(64) double real[kPlaneHits * kPlaneRealCount];
+  alignas(64) float single[kPlaneHits * kPlaneFloatCount];
+  alignas(64) uint32_t primitive[kPlaneHits + kPlaneLine];
+  alignas(64) uint32_t cell[kPlaneHits + kPlaneLine];
+  alignas(64) uint32_t plane_of_hit[kPlaneHits];
   int planes = 0;
 
   double* reals(int plane) { return real + plane / kPlaneLine * (kPlaneLine * kPlaneRealCount) + plane % kPlaneLine; }
@@ -192,13 +193,14 @@ class PlaneFinder {
     block_.primitive[block_.planes] = primitive, block_.cell[block_.planes] = cell;
     return static_cast<int16_t>(block_.planes++);
   }
-  static constexpr uint32_t kSlots = 2 * kBlockHits;  // at most half full
+  static constexpr uint32_t kSlots = 2 * kPlaneHits;  // at most half full
   PlaneBlock& block_;
   int16_t slot_[kSlots];
 };
 
-// The planes of hits [at, at + count); misses stand for primitive 0.
-void set_up_block(const Frame& frame, const HitBatch& hits, int at, int count, PlaneBlock& block) {
+// The planes of up to kPlaneHits hits from `at` on; misses stand for primitive 0.
+void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
+  const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   block.planes = 0;
   PlaneFinder finder(block);
   for (int i = 0; i < count; i += kLanes) {

@@ -123,8 +123,8 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   return good;
 }
 
-// Of hits [hit, hit + kLanes) of the block.
-HWY_INLINE Mask primary_point(const Frame& frame, PlaneBlock& block, int hit, I32 pixel, const OffsetLanes& offset, PointLanes& point) {
+// visit(planes) with the planes of hits [hit, hit + kLanes) of the block.
+template <class Visit> HWY_INLINE void with_planes(PlaneBlock& block, int hit, const Visit& visit) {
   constexpr int kMost = 4;  // beyond, gathers are as fast
   const I32 plane = I32::load(block.plane_of_hit + hit);
   FewPlanes<kMost> few;
@@ -132,18 +132,18 @@ HWY_INLINE Mask primary_point(const Frame& frame, PlaneBlock& block, int hit, I3
   for (uint32_t left = (1u << kLanes) - 1; left != 0; ++count) {
     if (count == kMost) {
       const I32 line = shift_right<4>(plane), lane = plane & i32(kPlaneLine - 1);
-      return primary_point(frame, ManyPlanes{block.single, block.real, line * i32(kPlaneLine * kPlaneFloatCount) + lane,
-                                             line * i32(kPlaneLine * kPlaneRealCount) + lane}, pixel, offset, point);
+      return visit(ManyPlanes{block.single, block.real, line * i32(kPlaneLine * kPlaneFloatCount) + lane,
+                              line * i32(kPlaneLine * kPlaneRealCount) + lane});
     }
     const uint32_t first = block.plane_of_hit[hit + __builtin_ctz(left)];
     few.single[count] = block.singles(static_cast<int>(first)), few.real[count] = block.reals(static_cast<int>(first));
     few.lanes[count] = plane == i32(first);
     left &= ~to_bits(few.lanes[count]);
   }
-  if (count == 1) return primary_point(frame, few.first<1>(), pixel, offset, point);
-  if (count == 2) return primary_point(frame, few.first<2>(), pixel, offset, point);
+  if (count == 1) return visit(few.first<1>());
+  if (count == 2) return visit(few.first<2>());
   for (; count < kMost; ++count) few.single[count] = few.single[0], few.real[count] = few.real[0], few.lanes[count] = few.lanes[0];
-  return primary_point(frame, few, pixel, offset, point);
+  visit(few);
 }
 
 }  // namespace surface_lanes

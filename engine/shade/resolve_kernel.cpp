@@ -15,17 +15,19 @@ namespace HWY_NAMESPACE {
 using namespace surface_lanes;
 namespace {
 
-void store_zeros(const Group& g, const SurfaceBatch& out) {
-  const V3f zero{F32::zero(), F32::zero(), F32::zero()};
+// Zeros in lanes that are not valid.
+HWY_NOINLINE void clear_misses(const SurfaceBatch& out, int at, Mask valid) {
+  const auto clear = [&](float* field) HWY_ATTR { select(valid, F32::load(field + at), F32::zero()).store(field + at); };
   for (float* const* v : {out.position, out.geometric_normal, out.normal, out.view, out.weight, out.dpdx, out.dpdy, out.ambient,
                           out.diffuse, out.specular, out.emission, out.mirror})
-    put(g, v, zero);
-  for (float* f : {out.position_error, out.t, out.shininess, out.opacity}) put(g, f, zero.x);
-  for (uint32_t* w : {out.pixel, out.ray, out.primitive, out.material, out.valid}) put(g, w, I32::zero());
+    for (int k = 0; k < 3; ++k) clear(v[k]);
+  for (float* f : {out.position_error, out.t, out.shininess, out.opacity}) clear(f);
+  for (uint32_t* w : {out.pixel, out.ray, out.primitive, out.material, out.valid})
+    select(valid, I32::load(w + at), I32::zero()).store(w + at);
 }
 
 // Footprint, held below the square root of the largest float so that its length is finite.
-void store_footprint(const Group& g, float* const field[3], const V3f& d) {
+HWY_INLINE void store_footprint(const Group& g, float* const field[3], const V3f& d) {
   const F32 limit = f32(0x1p62f);
   put(g, field, {clamp_(d.x, -limit, limit), clamp_(d.y, -limit, limit), clamp_(d.z, -limit, limit)});
 }
@@ -103,65 +105,51 @@ HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const Of
   if (frame.plan.bump) take(uv.tangent_u, odd.uv.tangent_u), take(uv.tangent_v, odd.uv.tangent_v);
 }
 
-// Everything but what maps say.
-void store_point(SurfaceBlock& block, const HitBatch& hits, int i, Mask valid, const PointLanes& point) {
-  const Frame& frame = block.frame;
-  const SurfaceBatch& out = block.out;
-  const bool one_material = all(point.material == i32(first_lane(point.material)));
-  const Group g{frame, valid, record_lanes(point.material, kMaterialStride, one_material), block.begin + i};
+// What the material does not say. uv stays behind for its maps.
+HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at, const HitLanes& lanes, const PointLanes& point, UvLanes& uv) {
+  const Group g{frame, out, at, lanes.valid, {}};
   put(g, out.position, point.position);
   put(g, out.position_error, point.position_error);
   put(g, out.t, point.t);
   put(g, out.weight, point.weight);
-  const V3f none{F32::zero(), F32::zero(), F32::zero()};
   if (frame.plan.bounces) {
     store_footprint(g, out.dpdx, point.dpdx);
     store_footprint(g, out.dpdy, point.dpdy);
-  } else {
-    put(g, out.dpdx, none);
-    put(g, out.dpdy, none);
   }
-  put(g, out.pixel, I32::load(hits.pixel.data() + g.at));
-  put(g, out.ray, secondary(hits.rays) != nullptr ? I32::load(hits.ray.data() + g.at) : i32(0));
-  put(g, out.primitive, I32::load(hits.primitive.data() + g.at));
+  put(g, out.pixel, lanes.pixel);
+  put(g, out.ray, lanes.ray);
+  put(g, out.primitive, lanes.primitive);
   put(g, out.material, point.material);
   put(g, out.valid, i32(1));
   put(g, out.view, point.view);
   put(g, out.geometric_normal, point.geometric);
   put(g, out.normal, frame.plan.bump ? point.normal : clamp_to_horizon(point.normal, point.geometric));
-  put_constants(g, out);
-  if (reads_textures(frame)) block.uv.store(i, point.uv, frame.plan.bump);
+  if (reads_textures(frame)) uv = point.uv;
 }
 
-// find(lanes, i, point): the points of entries i .. of the block.
-template <class Find> HWY_INLINE void store_points(SurfaceBlock& block, const HitBatch& hits, const Find& find) {
-  for (int i = 0; i < block.count; i += kLanes) {
-    const HitLanes lanes = load_hits(hits, block.begin + i);
-    if (!any(lanes.valid)) {
-      store_zeros(Group{block.frame, lanes.valid, {}, block.begin + i}, block.out);
-      continue;
-    }
-    PointLanes point;
-    find(lanes, i, point);
-    store_point(block, hits, i, lanes.valid, point);
+// The rest of a stored point.
+void store_material(const Frame& frame, const SurfaceBatch& out, int at, const HitLanes& lanes, const UvLanes& uv) {
+  const I32 material = I32::load(out.material + at);
+  const bool one_material = all(material == i32(first_lane(material)));
+  const Group g{frame, out, at, lanes.valid, record_lanes(material, kMaterialStride, one_material)};
+  if (frame.plan.bump) put(g, out.normal, clamp_to_horizon(bumped_normal(g, uv, get(g, out.normal)), get(g, out.geometric_normal)));
+  MaterialLanes m = constants_of(g);
+  if (reads_textures(frame)) apply_maps(g, uv, m);
+  put_material(g, m);
+}
+
+template <class Planes>
+HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const SurfaceBatch& out, int at, const HitLanes& lanes,
+                              const Planes& planes, UvLanes& uv) {
+  const OffsetLanes offset = offsets_of(frame, hits, at);
+  PointLanes point;
+  const Mask good = primary_point(frame, planes, lanes.pixel, offset, point);
+  if (any(and_not(good, lanes.valid))) {
+    PointLanes mended = point;  // a copy has an address, so that the point itself may stay in registers
+    resolve_odd(frame, lanes, offset, good, mended);
+    point = mended;
   }
-}
-
-void resolve_primary(SurfaceBlock& block, const HitBatch& hits, PlaneBlock& planes) {
-  const Frame& frame = block.frame;
-  set_up_block(frame, hits, block.begin, block.count, planes);
-  store_points(block, hits, [&](const HitLanes& lanes, int i, PointLanes& point) HWY_ATTR {
-    const OffsetLanes offset = offsets_of(frame, hits, block.begin + i);
-    const Mask good = primary_point(frame, planes, i, lanes.pixel, offset, point);
-    if (any(and_not(good, lanes.valid))) resolve_odd(frame, lanes, offset, good, point);
-  });
-}
-
-void resolve_secondary(SurfaceBlock& block, const HitBatch& hits) {
-  const Frame& frame = block.frame;
-  store_points(block, hits, [&](const HitLanes& lanes, int, PointLanes& point) HWY_ATTR {
-    point = point_of(frame, lanes, load_rays(frame, lanes), nullptr, [&]() HWY_ATTR { return load_differentials(frame, lanes); });
-  });
+  store_point(frame, out, at, lanes, point, uv);
 }
 
 }  // namespace
@@ -172,13 +160,22 @@ void resolve_secondary(SurfaceBlock& block, const HitBatch& hits) {
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
-  SurfaceBlock block(frame, out);
   PlaneBlock planes;
-  for (; block.begin < hits.count; block.begin += kBlockHits) {
-    block.count = hits.count - block.begin < kBlockHits ? hits.count - block.begin : kBlockHits;
-    if (primary) resolve_primary(block, hits, planes);
-    else resolve_secondary(block, hits);
-    apply_maps(block);
+  for (int at = 0; at < hits.count; at += kLanes) {
+    if (primary && at % kPlaneHits == 0) set_up_block(frame, hits, at, planes);
+    const HitLanes lanes = load_hits(hits, at);
+    UvLanes uv;
+    if (any(lanes.valid)) {
+      if (primary)
+        with_planes(planes, at % kPlaneHits, [&](const auto& of_hits) HWY_ATTR { store_primary(frame, hits, out, at, lanes, of_hits, uv); });
+      else
+        store_point(frame, out, at, lanes, point_of(frame, lanes, load_rays(frame, lanes), nullptr, [&]() HWY_ATTR {
+                      return load_differentials(frame, lanes);
+                    }), uv);
+      store_material(frame, out, at, lanes, uv);
+    }
+    const int left = hits.count - at;
+    if (any(and_not(lanes.valid, first_lanes(left < kLanes ? left : kLanes)))) clear_misses(out, at, lanes.valid);
   }
 }
 
@@ -189,10 +186,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace spanray {
 
+namespace {
+uint32_t surface_fields(const PlanFlags& plan) {
+  return (plan.ambient ? kSurfaceAmbient : 0u) | (plan.emission ? kSurfaceEmission : 0u) | (plan.bounces ? kSurfaceMirror | kSurfaceFootprint : 0u);
+}
+}  // namespace
+
 const ResolveFn kResolve[kIsaCount] = SPANRAY_KERNEL_TABLE(resolve);
 
 void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
-  out.resize(hits.count);
+  out.resize(hits.count, surface_fields(frame.plan));
   kResolve[isa_index(frame.isa)](frame, hits, out);
 }
 

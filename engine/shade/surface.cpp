@@ -1,5 +1,6 @@
 #include "shade/surface.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -12,10 +13,12 @@ constexpr size_t kVectorWords = 16;  // one widest vector, 64 bytes
 
 SurfaceBatch::SurfaceBatch() { resize(0); }
 
-void SurfaceBatch::resize(int n) {
+void SurfaceBatch::resize(int n, uint32_t fields) {
   static_assert(sizeof(float) == sizeof(uint32_t));
-  float** const vectors[] = {position, geometric_normal, normal, view, weight, dpdx, dpdy,
-                             ambient, diffuse, specular, emission, mirror};
+  struct Vector { float** field; uint32_t needs; };
+  const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, 0}, {diffuse, 0}, {specular, 0},
+                            {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint}, {ambient, kSurfaceAmbient},
+                            {emission, kSurfaceEmission}, {mirror, kSurfaceMirror}};
   float** const scalars[] = {&position_error, &t, &shininess, &opacity};
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
   constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){});
@@ -23,11 +26,13 @@ void SurfaceBatch::resize(int n) {
   count = n;
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
   const size_t stride = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
-  storage_.resize(stride * kFields);
+  storage_.resize(stride * (kFields + 1));
   float* next = storage_.data();
   const auto take = [&] { return std::exchange(next, next + stride); };
-  for (float** v : vectors)
-    for (int k = 0; k < 3; ++k) v[k] = take();
+  float* const zeros = take();
+  std::fill_n(zeros, stride, 0.0f);
+  for (const Vector& v : vectors)
+    for (int k = 0; k < 3; ++k) v.field[k] = (v.needs & ~fields) == 0 ? take() : zeros;
   for (float** s : scalars) *s = take();
   // Words live in the block of floats; kernels move both with the same untyped vector loads and stores.
   for (uint32_t** w : words) *w = reinterpret_cast<uint32_t*>(take());

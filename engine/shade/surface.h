@@ -6,8 +6,11 @@
 
 namespace spanray {
 
+// Fields that only some frames need.
+enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurfaceMirror = 4, kSurfaceFootprint = 8, kSurfaceAllFields = 15 };
+
 // Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
-// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror) are 0.
+// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy) are 0.
 struct SurfaceBatch {
   int count = 0;
   float* position[3];          // on the original triangle, moved into it
@@ -25,7 +28,8 @@ struct SurfaceBatch {
   uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
 
   SurfaceBatch();
-  void resize(int n);
+  // fields: those that will be written. The others share one array of zeros, not to be written.
+  void resize(int n, uint32_t fields = kSurfaceAllFields);
   size_t memory_bytes() const { return storage_.bytes(); }
 
  private:

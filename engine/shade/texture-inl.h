@@ -30,12 +30,30 @@ HWY_INLINE I32 wrap(I32 i, I32 size, const UseLanes& use) {
   return min_(max_(r, zero), last);
 }
 
+// Texels i and i + 1 by the rule of the use; i in [-1, size - 1].
+struct Neighbours { I32 first, second; };
+HWY_INLINE Neighbours neighbours(I32 i, I32 size, const UseLanes& use) {
+  const I32 zero = I32::zero(), one = i32(1), last = size - one;
+  const I32 first = min_unsigned(i, last);
+  const Neighbours repeated{first, select(first == last, zero, first + one)};
+  if (!use.any_clamp) return repeated;
+  return {select(use.clamp, max_(i, zero), repeated.first), select(use.clamp, min_(i + one, last), repeated.second)};
+}
+
 // The first kChannels channels of texel `index`.
 template <int kChannels> HWY_INLINE void read_texel(const uint32_t* words, I32 index, F32 out[4]) {
   const WordPair texel = gather_pair(words, index);
   const I32 low16 = i32(0xffff);
   out[0] = to_f32(texel.low & low16), out[1] = to_f32(shift_right_logical<16>(texel.low)), out[2] = to_f32(texel.high & low16);
   if constexpr (kChannels > 3) out[3] = to_f32(shift_right_logical<16>(texel.high));
+}
+
+HWY_INLINE I32 first_texel(const SceneData& scene, const UseLanes& use, I32 level) {
+  const uint32_t* textures = reinterpret_cast<const uint32_t*>(scene.textures.data());
+  if constexpr (kLanes == kMaxMipLevels + 1) {  // one load and a permutation; from the word before the table, which exists
+    if (use.texture.uniform) return lookup(textures + use.texture.first + kTextureOffset - 1, level + i32(1));
+  }
+  return gather(textures, use.texture.offset + i32(kTextureOffset) + level);
 }
 
 // The point of a use on a level: its size and first texel, and the point in 1/256 texels.
@@ -47,8 +65,7 @@ HWY_INLINE LevelPlace place_on_level(const SceneData& scene, const UseLanes& use
   const F32 steps = f32(256.0f);
   p.x = nearest_i32_small(use.s * (to_f32(p.width) * steps));  // of a position in [0, 2^22]
   p.y = nearest_i32_small(use.t * (to_f32(p.height) * steps));
-  const uint32_t* textures = reinterpret_cast<const uint32_t*>(scene.textures.data());
-  p.base = gather(textures, use.texture.offset + i32(kTextureOffset) + level);
+  p.base = first_texel(scene, use, level);
   return p;
 }
 
@@ -63,13 +80,15 @@ struct TexelLanes {
 HWY_INLINE TexelLanes find_texels(const SceneData& scene, const UseLanes& use, I32 level, bool nearest) {
   TexelLanes r;
   const LevelPlace p = place_on_level(scene, use, level);
-  const I32 to_center = i32(nearest ? 0 : 128), x = p.x - to_center, y = p.y - to_center;
-  const I32 x0 = shift_right<8>(x), y0 = shift_right<8>(y);
-  const I32 left = wrap(x0, p.width, use), top = p.base + wrap(y0, p.height, use) * p.width;
-  r.index[0] = top + left;
-  if (nearest) return r;
-  const I32 right = wrap(x0 + i32(1), p.width, use), bottom = p.base + wrap(y0 + i32(1), p.height, use) * p.width;
-  r.index[1] = top + right, r.index[2] = bottom + left, r.index[3] = bottom + right;
+  if (nearest) {
+    r.index[0] = p.base + wrap(shift_right<8>(p.y), p.height, use) * p.width + wrap(shift_right<8>(p.x), p.width, use);
+    return r;
+  }
+  const I32 to_center = i32(128), x = p.x - to_center, y = p.y - to_center;
+  const Neighbours column = neighbours(shift_right<8>(x), p.width, use), row = neighbours(shift_right<8>(y), p.height, use);
+  const I32 top = p.base + row.first * p.width, bottom = p.base + row.second * p.width;
+  r.index[0] = top + column.first, r.index[1] = top + column.second;
+  r.index[2] = bottom + column.first, r.index[3] = bottom + column.second;
   r.fx = x & i32(255), r.fy = y & i32(255);
   return r;
 }

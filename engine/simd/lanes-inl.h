@@ -141,6 +141,15 @@ HWY_INLINE Mask operator==(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Eq(a
 HWY_INLINE Mask operator!=(I32 a, I32 b) { return !(a == b); }
 HWY_INLINE Mask operator<(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Lt(a.v, b.v))}; }
 // a < b of the words as unsigned numbers.
+// table[index] for a table of kLanes words.
+HWY_INLINE I32 lookup(const uint32_t* table, I32 index) {
+  const I32 words = {hn::LoadU(DI(), reinterpret_cast<const int32_t*>(table))};
+  return {hn::TableLookupLanes(words.v, hn::IndicesFromVec(DI(), index.v))};
+}
+HWY_INLINE I32 min_unsigned(I32 a, I32 b) {
+  const hn::RebindToUnsigned<DI> du;
+  return {hn::BitCast(DI(), hn::Min(hn::BitCast(du, a.v), hn::BitCast(du, b.v)))};
+}
 HWY_INLINE Mask less_unsigned(I32 a, I32 b) {
   const hn::RebindToUnsigned<DI> du;
   return {hn::RebindMask(DF(), hn::Lt(hn::BitCast(du, a.v), hn::BitCast(du, b.v)))};

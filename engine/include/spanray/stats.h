@@ -7,7 +7,7 @@
 
 namespace spanray {
 
-inline constexpr int kNumericContract = 3;
+inline constexpr int kNumericContract = 4;
 
 // Milliseconds. Stages inside tiles are thread time divided by the number of threads; frame is wall time without file output.
 struct StageTimes {
