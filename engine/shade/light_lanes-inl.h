@@ -80,6 +80,8 @@ HWY_INLINE Reflected reflect(I32 model, Mask active, bool specular, const Cosine
 
 HWY_INLINE I32 reflectance_models(const SceneData& scene, I32 material) {
   const int32_t* base = reinterpret_cast<const int32_t*>(scene.materials.data());
+  const uint32_t first = static_cast<uint32_t>(first_lane(material));
+  if (all(material == i32(first))) return i32(scene.materials[first].reflectance);
   return gather(base + offsetof(Material, reflectance) / 4, material * i32(kMaterialStride));
 }
 HWY_INLINE F32 material_shininess(const SceneData& scene, I32 material) {
