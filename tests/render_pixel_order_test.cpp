@@ -27,7 +27,7 @@ TEST(PixelOrder, HasEachPixelOnceForEverySize) {
 TEST(PixelOrder, RowsToSlotsAndBack) {
   PixelOrder order;
   constexpr int kStride = 70;
-  for (const auto& [columns, rows] : {std::pair{64, 16}, {61, 16}, {4, 3}, {3, 5}, {1, 1}, {60, 1}}) {
+  for (const auto& [columns, rows] : {std::pair{64, 16}, {60, 12}, {20, 8}, {61, 16}, {4, 3}, {3, 5}, {1, 1}, {60, 1}}) {
     order.make(columns, rows);
     std::vector<uint32_t> from(kStride * 16), slots(static_cast<size_t>(columns * rows)), back(kStride * 16, 0u);
     std::iota(from.begin(), from.end(), 1u);

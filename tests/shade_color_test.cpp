@@ -45,7 +45,8 @@ TEST_P(ShadeColor, BytesAreThoseOfTheOracle) {
     const glm::dvec3 want = oracle.radiance(pack_pixel(x, y), out.primitive[i]);
     int difference = 0;
     for (int c = 0; c < 3; ++c)
-      difference = std::max(difference, std::abs(out.color.rgba[4 * i + static_cast<size_t>(c)] - static_cast<int>(std::lround(255 * oracle_srgb(want[c])))));
+      difference = std::max(difference, std::abs(out.color.rgba[4 * i + static_cast<size_t>(c)] -
+                                                 static_cast<int>(std::lround(255 * oracle_srgb(want[c])))));
     if (difference > worst_difference)
       worst_difference = difference, worst = std::to_string(x) + "," + std::to_string(y) + " of primitive " + std::to_string(out.primitive[i]);
     ++histogram[static_cast<size_t>(difference)], ++pixels;

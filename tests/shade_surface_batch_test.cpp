@@ -35,20 +35,21 @@ TEST(ShadeSurfaceBatch, OneBitPatternForEveryInstructionSetAndBatchSplit) {
       auto t = full_frame(random_surface_scene(13, 60), random_camera(random, 3), 512, 512, Isa::kScalar);
       t->frame.settings.shading = shading, t->frame.settings.filter = filter;
       HitBatch hits;
-      random_primary_hits(t->frame, random, 301, hits);
+      constexpr int kCount = 1301;  // more than planes are set up for at once
+      random_primary_hits(t->frame, random, kCount, hits);
       for (size_t i = 40; i < 80; ++i) hits.primitive[i] = hits.primitive[40];  // a run of one triangle: the uniform path
-      hits.primitive[50] = kNoPrimitive;
+      for (const size_t miss : {50u, 1020u, 1023u, 1024u, 1040u}) hits.primitive[miss] = kNoPrimitive;
       SurfaceBatch want;
       resolve_surfaces(t->frame, hits, want);
-      for (const BatchField& f : batch_fields(want)) hash.add(f.data, 301 * sizeof(float));
+      for (const BatchField& f : batch_fields(want)) hash.add(f.data, kCount * sizeof(float));
       for (const Isa isa : supported_isas()) {
         t->frame.isa = isa;
-        for (const int size : {1, 3, 16, 301}) {
+        for (const int size : {1, 3, 16, 1000, kCount}) {
           if (size == 1 && isa == Isa::kScalar) continue;
           SurfaceBatch s;
-          for (int first = 0; first < 301; first += size) {
+          for (int first = 0; first < kCount; first += size) {
             HitBatch part;
-            for (int i = std::min(first + size, 301); i-- > first;)  // reversed
+            for (int i = std::min(first + size, kCount); i-- > first;)  // reversed
               add_hit(part, hits.pixel[static_cast<size_t>(i)], 0, hits.primitive[static_cast<size_t>(i)]);
             resolve_surfaces(t->frame, part, s);
             for (int i = 0; i < part.count; ++i)
@@ -96,15 +97,22 @@ TEST(ShadeSurfaceBatch, ThePlanChangesOnlyWhatItLeavesOut) {
   auto t = full_frame(random_surface_scene(17, 60), random_camera(random, 3), 512, 512);
   HitBatch hits;
   random_primary_hits(t->frame, random, 200, hits);
+  hits.primitive[33] = kNoPrimitive;
   SurfaceBatch all, less;
   resolve_surfaces(t->frame, hits, all);
+  {
+    HitBatch more;  // what stood there before must not be seen
+    random_primary_hits(t->frame, random, 700, more);
+    resolve_surfaces(t->frame, more, less);
+  }
   t->frame.plan.specular = t->frame.plan.emission = t->frame.plan.ambient = t->frame.plan.bounces = t->frame.plan.bump = false;
   resolve_surfaces(t->frame, hits, less);
   for (int i = 0; i < hits.count; ++i)
     for (int k = 0; k < 3; ++k) {
       ASSERT_EQ(bits_of(all.diffuse[k][i]), bits_of(less.diffuse[k][i]));
       ASSERT_EQ(bits_of(all.position[k][i]), bits_of(less.position[k][i]));
-      ASSERT_EQ(bits_of(less.specular[k][i]) | bits_of(less.emission[k][i]) | bits_of(less.ambient[k][i]) | bits_of(less.mirror[k][i]), 0u);
+      ASSERT_EQ(bits_of(less.specular[k][i]) | bits_of(less.emission[k][i]) | bits_of(less.ambient[k][i]) | bits_of(less.mirror[k][i]) |
+                    bits_of(less.dpdx[k][i]) | bits_of(less.dpdy[k][i]), 0u);
     }
 }
 

@@ -141,12 +141,13 @@ class Window {
         // Boxes of one block or so have just been tested.
         const bool wide = !kSmall && (w > TileDepth::kBlock || h > TileDepth::kBlock);
         if (wide) refresh_if(kRefreshPixels);  // the first of a vector may hide all others
-        const uint32_t blocks = wide && tile_depth_known_ ? tile_depth_.blocks_that_show(tile_, setups, k) : TileDepth::kAllBlocks;
+        uint32_t blocks = TileDepth::blocks_of(setups.x0[k], setups.x1[k], setups.y0[k], setups.y1[k]);
+        if (wide && tile_depth_known_) blocks &= tile_depth_.blocks_that_show(tile_, setups, k);
         out_.triangles_hidden += blocks == 0;
         if (blocks == 0) continue;
         walk<kSmall, kMasked>(setups, k, blocks);
         stale_pixels_ += w * h;
-        stale_blocks_ |= blocks & TileDepth::blocks_of(setups.x0[k], setups.x1[k], setups.y0[k], setups.y1[k]);
+        stale_blocks_ |= blocks;
       }
     }
   }

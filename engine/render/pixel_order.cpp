@@ -8,7 +8,7 @@ namespace spanray {
 
 void PixelOrder::make(int columns, int rows) {
   if (columns == columns_ && rows == rows_) return;
-  columns_ = columns, rows_ = rows;
+  columns_ = rows_ = 0;  // until all is there: allocating may throw
   pixel_.clear();
   slot_.resize(static_cast<size_t>(columns * rows));
   const auto blocks = [](int begin, int end, int step, const auto& visit) {
@@ -28,6 +28,7 @@ void PixelOrder::make(int columns, int rows) {
       });
     });
   });
+  columns_ = columns, rows_ = rows;
 }
 
 }  // namespace spanray

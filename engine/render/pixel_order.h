@@ -42,10 +42,12 @@ class PixelOrder {
     const uint32_t* const pixel = pixel_.data();  // no members in the loops: what is copied might change them
     const size_t pixels = pixel_.size();
     if (columns_ % kBlock == 0 && rows_ % kBlock == 0) {
+      constexpr std::integral_constant<size_t, kBlock> kRun;
       for (size_t i = 0; i < pixels; i += kBlock * kBlock)
-        for (size_t row = 0; row < kBlock; ++row) copy(i + row * kBlock, x(pixel[i]), y(pixel[i]) + static_cast<ptrdiff_t>(row), std::integral_constant<size_t, kBlock>{});
+        for (size_t row = 0; row < kBlock; ++row) copy(i + row * kBlock, x(pixel[i]), y(pixel[i]) + static_cast<ptrdiff_t>(row), kRun);
     } else {
-      for (size_t i = 0; i < pixels; ++i) copy(i, x(pixel[i]), y(pixel[i]), std::integral_constant<size_t, 1>{});
+      constexpr std::integral_constant<size_t, 1> kRun;
+      for (size_t i = 0; i < pixels; ++i) copy(i, x(pixel[i]), y(pixel[i]), kRun);
     }
   }
 

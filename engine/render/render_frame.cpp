@@ -38,7 +38,7 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
 
 }  // namespace
 
-// What lives from frame to frame: threads, buffers, trees. Trees are rebuilt when the scene or the meaning of its
+// What lives from frame to frame: threads, buffers, trees, lit vertices. Trees are rebuilt when the scene or the meaning of its
 // materials changes.
 struct Renderer::Impl {
   std::unique_ptr<Parallel> parallel;

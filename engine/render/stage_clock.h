@@ -11,7 +11,7 @@ inline constexpr int kTileStageCount = 6;
 // One stage at a time; it lasts until the next is entered. Reading the clock takes as long as shading some pixels: once a change.
 class StageClock {
  public:
-  void reset() { seconds_ = {}; }
+  void reset() { *this = {}; }  // an exception may have left it running
   // Returns the stage that ends.
   TileStage enter(TileStage stage) {
     const TileStage before = stage_;

@@ -21,7 +21,6 @@ int chunk_rows(const Frame& frame) {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
-  w.clock.enter(TileStage::kRaster);
   if (job.bins != nullptr) {
     const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
     w.pixel_order.from_rows(w.visible.primitive + row0 * kTileSize, kTileSize, level.primitive.data());
@@ -223,6 +222,7 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   const int rows = chunk_rows(job.frame);
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
+    w.clock.enter(TileStage::kRaster);
     level.resize(chunk.pixels(), job.frame.plan.translucents);
     if (samples) {
       find_sample_slots(job, chunk, w, level);

@@ -27,18 +27,19 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
 }  // namespace
 
 void light_surfaces(const FrameJob& job, TileWorker& w, const SurfaceBatch& surfaces, const HitBatch& hits, bool primary) {
+  const TileStage stage = w.clock.enter(TileStage::kShade);
   float* radiance[3];
   for (int c = 0; c < 3; ++c) {
     w.radiance[c].resize(static_cast<size_t>(surfaces.count) + 64);  // whole vectors are written
     radiance[c] = w.radiance[c].data();
   }
   shade_ambient(job.frame, surfaces, radiance);
-  if (surfaces.count == 0) return;
-  for (int light = 0; light < static_cast<int>(job.frame.scene->lights.size()); ++light) {
+  for (int light = 0; surfaces.count > 0 && light < static_cast<int>(job.frame.scene->lights.size()); ++light) {
     const uint32_t* lit = job.frame.plan.shadow_rays ? find_lit(job, w, surfaces, light) : nullptr;
     if (job.request.ladder != nullptr && lit != nullptr) mix_shadow_bits(job, surfaces, hits, lit, light);
     shade_light(job.frame, surfaces, hits, light, lit, primary ? job.lit_vertices : nullptr, radiance);
   }
+  w.clock.enter(stage);
 }
 
 }  // namespace spanray

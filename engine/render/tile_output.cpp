@@ -4,7 +4,6 @@
 
 #include "image/encode.h"
 #include "render/tile_ladder.h"
-#include "render/tile_light.h"
 
 namespace spanray {
 namespace {

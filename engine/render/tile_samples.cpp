@@ -8,7 +8,6 @@
 #include "raster/depth_plane.h"
 #include "raster/raster.h"
 #include "render/tile.h"
-#include "render/tile_light.h"
 
 namespace spanray {
 namespace {

@@ -28,7 +28,7 @@ struct SurfaceBatch {
   uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
 
   SurfaceBatch();
-  // fields: those that will be written. The others share one array of zeros, not to be written.
+  // fields: those that will be written. The others share one array of zeros: nothing else may be written there.
   void resize(int n, uint32_t fields = kSurfaceAllFields);
   size_t memory_bytes() const { return storage_.bytes(); }
 

@@ -70,7 +70,7 @@ HWY_INLINE LevelPlace place_on_level(const SceneData& scene, const UseLanes& use
 }
 
 // Where a sample of one level reads: the texels to the upper left, upper right, lower left and lower right of it, and how far it is from the
-// first, in 1/256 texels. Finding that takes many steps that wait for each other; reading and blending does not need to wait with it.
+// first, in 1/256 texels.
 struct TexelLanes {
   I32 index[4];
   I32 fx, fy;

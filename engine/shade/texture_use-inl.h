@@ -71,7 +71,7 @@ HWY_INLINE F32 fraction(F32 a) {
 }
 
 // 256 * log2(sqrt(square)), rounded. Error <= 0.55; monotone; about -2^14 for 0.
-// Source: log2(1 + x) = x + x (1 - x) q(x), q cubic through Chebyshev nodes: exact at both ends, so octaves join.
+// Source: log2(1 + x) = x + x (1 - x) q(x), q quadratic through Chebyshev nodes: exact at both ends, so octaves join.
 HWY_INLINE I32 half_log2_256(F32 square) {
   const I32 bits = bits_of(square);
   const F32 exponent = to_f32(shift_right<23>(bits) - i32(127));

@@ -140,12 +140,12 @@ HWY_INLINE I32 shift_right_by(I32 a, I32 bits) { return {hn::Shr(a.v, bits.v)}; 
 HWY_INLINE Mask operator==(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Eq(a.v, b.v))}; }
 HWY_INLINE Mask operator!=(I32 a, I32 b) { return !(a == b); }
 HWY_INLINE Mask operator<(I32 a, I32 b) { return {hn::RebindMask(DF(), hn::Lt(a.v, b.v))}; }
-// a < b of the words as unsigned numbers.
 // table[index] for a table of kLanes words.
 HWY_INLINE I32 lookup(const uint32_t* table, I32 index) {
   const I32 words = {hn::LoadU(DI(), reinterpret_cast<const int32_t*>(table))};
   return {hn::TableLookupLanes(words.v, hn::IndicesFromVec(DI(), index.v))};
 }
+// The words as unsigned numbers: the smaller, and a < b.
 HWY_INLINE I32 min_unsigned(I32 a, I32 b) {
   const hn::RebindToUnsigned<DI> du;
   return {hn::BitCast(DI(), hn::Min(hn::BitCast(du, a.v), hn::BitCast(du, b.v)))};

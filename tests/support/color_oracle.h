@@ -1,5 +1,6 @@
-// The color of a primary hit in long double, written from the model's definitions (no code of engine/shade or engine/catalog): the
-// triangle's plane, interpolated normals, textures by footprint, direct light without shadows. Given: what the pixel sees.
+// The color of a primary hit, geometry in long double, light and texels in double, written from the model's definitions (no code of engine/shade or engine/catalog): the
+// triangle's plane, interpolated normals, color maps by footprint, direct light without shadows. Given: what the pixel sees, and no map of
+// shininess.
 // Texture coordinates and levels of detail count in 1/256, as DESIGN 3.13 defines sampling.
 #pragma once
 #include "support/shading_oracle.h"
@@ -72,7 +73,7 @@ class ColorOracle {
     return uv;
   }
 
-  // 256 times log2 of the longer side of the footprint: per octave x + x (1 - x) q(x), q cubic (Williams 1983 leaves the measure open; the
+  // 256 times log2 of the longer side of the footprint: per octave x + x (1 - x) q(x), q quadratic (Williams 1983 leaves the measure open; the
   // renderer defines it so).
   static int level_256(Real square) {
     int exponent;

@@ -2,8 +2,8 @@
 // index: 0
 // Source:   Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures"; the MTL format, illum 2.
 // Input:    n_l > 0; n_h in [0, 1]; shininess in [0, 1e4].   Output: reflectance times cosine, 1/sr.
-// Contract: 0 where there is no half vector and shininess > 0. Error <= 8 ulp (diffuse), (8 + 4 shininess) ulp (specular): the
-//           power magnifies the error of n_h.
+// Contract: 0 where there is no half vector and shininess > 0. Error <= 8 ulp (diffuse), (8 + 4 shininess) ulp and that of pow_
+//           (specular): the power magnifies the error of n_h.
 namespace reflectance::blinn_phong {
 template <class F> SPANRAY_FORMULA F diffuse(const Cosines<F>& c) { return c.n_l * number<F>(0.318309886f); }
 template <class F> SPANRAY_FORMULA F specular(const Cosines<F>& c) {
