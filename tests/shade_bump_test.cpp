@@ -15,6 +15,12 @@ int32_t add_slope(SceneData& scene, int size, int dx, int dy) {
   });
 }
 
+void resolve_unbumped(Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
+  frame.plan.bump = false;
+  resolve_surfaces(frame, hits, out);
+  frame.plan.bump = true;
+}
+
 Real3 unit(Real3 v) { return v * (1 / length_real(v)); }
 
 TEST(ShadeBump, SlopeIsHeightPerTexelTimesMultiplier) {
@@ -98,9 +104,7 @@ TEST(ShadeBump, S7_AmplitudeZeroIsUnbumped) {
     use.bump_multiplier = 0;
     resolve_surfaces(t->frame, hits, zero);
     use.bump_multiplier = 1;
-    t->frame.plan.bump = false;
-    resolve_surfaces(t->frame, hits, off);
-    t->frame.plan.bump = true;
+    resolve_unbumped(t->frame, hits, off);
     int moved = 0;
     for (int i = 0; i < hits.count; ++i) {
       ASSERT_TRUE(same_surface(zero, i, off, i)) << i;
@@ -197,9 +201,7 @@ TEST(ShadeBump, OneChannelOfGrayIsItsLuminance) {
     t->frame.isa = isa;
     SurfaceBatch luminance, flat, one;
     resolve_surfaces(t->frame, hits, luminance);
-    t->frame.plan.bump = false;
-    resolve_surfaces(t->frame, hits, flat);
-    t->frame.plan.bump = true;
+    resolve_unbumped(t->frame, hits, flat);
     for (const int32_t channel : {0, 1, 2, 4}) {
       t->scene.texture_uses[static_cast<size_t>(gray)].channel = channel;
       resolve_surfaces(t->frame, hits, one);

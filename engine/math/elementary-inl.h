@@ -1,5 +1,6 @@
 // exp2, log2 and pow for lanes: the same bits on every target, no libm. The first two are computed in double, so that a float result is
-// off by hardly more than its own rounding; no stage asks for them now, they stand for formulas to come. Include after simd/lanes-inl.h's own includes, inside a *_kernel.cpp (simd/dispatch.h).
+// off by hardly more than its own rounding; no stage asks for them now, they stand for formulas to come. Include after
+// simd/lanes-inl.h's own includes, inside a *_kernel.cpp (simd/dispatch.h).
 #if defined(SPANRAY_ELEMENTARY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_ELEMENTARY_INL_H_
 #undef SPANRAY_ELEMENTARY_INL_H_

@@ -1,8 +1,8 @@
 // The order in which the pixels of a chunk are shaded: cells of 16 x 16, in them blocks of 4 x 4, so that the pixels of a vector are
 // neighbours in the picture. They see the same triangles, textures and boxes.
 #pragma once
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <vector>

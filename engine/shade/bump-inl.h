@@ -58,14 +58,10 @@ HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 inde
   const I32 channel = use.word(scene, kUseChannel), byte = i32(255), half = i32(128);
   const bool one_channel = all((channel > i32(-1)) & (channel < i32(4)));
   const I32 x = p.x - i32(256), y = p.y - i32(256), fx = x & byte, fy = y & byte;  // half a texel for the center, half to the first sample
-  I32 column[3], row[3];
-  for (int k = 0; k < 3; ++k) {
-    column[k] = wrap(shift_right<8>(x) + i32(k), p.width, use);
-    row[k] = p.base + wrap(shift_right<8>(y) + i32(k), p.height, use) * p.width;
-  }
+  const Neighbours<3> column = neighbours<3>(shift_right<8>(x), p.width, use), row = neighbours<3>(shift_right<8>(y), p.height, use);
   F32 h[3][3];
   for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) h[j][i] = read_height(scene, use, row[j] + column[i], channel, one_channel);
+    for (int i = 0; i < 3; ++i) h[j][i] = read_height(scene, use, p.base + row.texel[j] * p.width + column.texel[i], channel, one_channel);
   const F32 step = f32(0x1p-8f);
   const auto blend = [](F32 f, F32 a, F32 b) HWY_ATTR { return mul_add(f, b - a, a); };
   // Differences along a line of three, and which two of the lines lie around the point, how far from the first.
@@ -88,8 +84,7 @@ HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 inde
 //           one texel of level 0 is a slope of 1 for bm = 1. Differences are central, of bilinear samples half a texel to
 //           either side, on the level of the footprint; trilinear blends the slopes of two levels.
 // Contract: exactly n where the slope or bm is 0, or where there is no tangent.
-HWY_INLINE V3f apply_height_map(const SceneData& scene, UseLanes use, Filter filter, const UvLanes& uv, const V3f& n) {
-  find_masks(use);
+HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
   const LevelLanes levels = choose_levels(scene, use, filter);
   SlopeLanes slope = level_slope(scene, use, levels.level);
   if (levels.blend) {

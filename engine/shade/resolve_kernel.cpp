@@ -112,7 +112,7 @@ HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at,
   put(g, out.position_error, point.position_error);
   put(g, out.t, point.t);
   put(g, out.weight, point.weight);
-  if (frame.plan.bounces) {
+  if (out.fields & kSurfaceFootprint) {
     store_footprint(g, out.dpdx, point.dpdx);
     store_footprint(g, out.dpdy, point.dpdy);
   }
@@ -156,7 +156,7 @@ HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const Su
 
 // Recomputes the surface of every hit of a batch, kLanes at a time.
 // Source:   DESIGN 1; the steps cite theirs.
-// Input:    hits.count entries; out.count == hits.count.   Output: every field of out but those that surface_fields() leaves out.
+// Input:    hits.count entries; out.count == hits.count.   Output: every field of out, of the optional ones those in out.fields.
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();

@@ -13,7 +13,7 @@ constexpr size_t kVectorWords = 16;  // one widest vector, 64 bytes
 
 SurfaceBatch::SurfaceBatch() { resize(0); }
 
-void SurfaceBatch::resize(int n, uint32_t fields) {
+void SurfaceBatch::resize(int n, uint32_t written) {
   static_assert(sizeof(float) == sizeof(uint32_t));
   struct Vector { float** field; uint32_t needs; };
   const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, 0}, {diffuse, 0}, {specular, 0},
@@ -23,7 +23,7 @@ void SurfaceBatch::resize(int n, uint32_t fields) {
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
   constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){});
 
-  count = n;
+  count = n, fields = written;
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
   const size_t stride = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
   storage_.resize(stride * (kFields + 1));

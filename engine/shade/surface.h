@@ -13,6 +13,7 @@ enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurf
 // Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy) are 0.
 struct SurfaceBatch {
   int count = 0;
+  uint32_t fields = 0;         // SurfaceFields that are written
   float* position[3];          // on the original triangle, moved into it
   float* position_error;       // bound on the distance of position from the triangle, each coordinate, world units (resolve-inl.h, plane-inl.h)
   float* geometric_normal[3];  // unit, toward the ray's origin
@@ -28,8 +29,8 @@ struct SurfaceBatch {
   uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
 
   SurfaceBatch();
-  // fields: those that will be written. The others share one array of zeros: nothing else may be written there.
-  void resize(int n, uint32_t fields = kSurfaceAllFields);
+  // written: SurfaceFields. The others share one array of zeros: nothing else may be written there.
+  void resize(int n, uint32_t written = kSurfaceAllFields);
   size_t memory_bytes() const { return storage_.bytes(); }
 
  private:

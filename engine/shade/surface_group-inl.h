@@ -63,16 +63,14 @@ HWY_INLINE MaterialLanes constants_of(const Group& g) {
   return m;
 }
 
-// Fields that surface_fields() leaves out are not written.
 HWY_INLINE void put_material(const Group& g, const MaterialLanes& m) {
-  const PlanFlags& plan = g.frame.plan;
   put(g, g.out.diffuse, m.diffuse);
   put(g, g.out.specular, m.specular);
   put(g, g.out.shininess, m.shininess);
   put(g, g.out.opacity, m.opacity);
-  if (plan.ambient) put(g, g.out.ambient, m.ambient);
-  if (plan.bounces) put(g, g.out.mirror, m.mirror);
-  if (plan.emission) put(g, g.out.emission, m.emission);
+  if (g.out.fields & kSurfaceAmbient) put(g, g.out.ambient, m.ambient);
+  if (g.out.fields & kSurfaceMirror) put(g, g.out.mirror, m.mirror);
+  if (g.out.fields & kSurfaceEmission) put(g, g.out.emission, m.emission);
 }
 
 }  // namespace surface_lanes

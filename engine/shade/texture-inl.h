@@ -19,25 +19,15 @@ inline constexpr float kRawToUnit = 1.0f / 65535.0f;  // 65535 * kRawToUnit roun
 
 struct RawSample { F32 c[4]; };
 
-// Texel index from at most two texels outside to inside, by the rule of the use.
-HWY_INLINE I32 wrap(I32 i, I32 size, const UseLanes& use) {
-  if (use.masks) return i & (size - i32(1));
-  const I32 zero = i32(0), last = size - i32(1);
-  I32 r = i + select(i < zero, size, zero);
-  r = r - select(r > last, size, zero);
-  r = r - select(r > last, size, zero);  // twice: a level of one texel
-  if (use.any_clamp) r = select(use.clamp, i, r);
-  return min_(max_(r, zero), last);
-}
-
-// Texels i and i + 1 by the rule of the use; i in [-1, size - 1].
-struct Neighbours { I32 first, second; };
-HWY_INLINE Neighbours neighbours(I32 i, I32 size, const UseLanes& use) {
+// Texels i, i + 1, .. by the rule of the use; i in [-1, size - 1].
+template <int kCount> struct Neighbours { I32 texel[kCount]; };
+template <int kCount> HWY_INLINE Neighbours<kCount> neighbours(I32 i, I32 size, const UseLanes& use) {
   const I32 zero = I32::zero(), one = i32(1), last = size - one;
-  const I32 first = min_unsigned(i, last);
-  const Neighbours repeated{first, select(first == last, zero, first + one)};
-  if (!use.any_clamp) return repeated;
-  return {select(use.clamp, max_(i, zero), repeated.first), select(use.clamp, min_(i + one, last), repeated.second)};
+  Neighbours<kCount> n;
+  n.texel[0] = min_unsigned(i, last);
+  for (int k = 1; k < kCount; ++k) n.texel[k] = select(n.texel[k - 1] == last, zero, n.texel[k - 1] + one);
+  for (int k = 0; k < kCount && use.any_clamp; ++k) n.texel[k] = select(use.clamp, min_(max_(i + i32(k), zero), last), n.texel[k]);
+  return n;
 }
 
 // The first kChannels channels of texel `index`.
@@ -80,15 +70,14 @@ struct TexelLanes {
 HWY_INLINE TexelLanes find_texels(const SceneData& scene, const UseLanes& use, I32 level, bool nearest) {
   TexelLanes r;
   const LevelPlace p = place_on_level(scene, use, level);
-  if (nearest) {
-    r.index[0] = p.base + wrap(shift_right<8>(p.y), p.height, use) * p.width + wrap(shift_right<8>(p.x), p.width, use);
-    return r;
-  }
-  const I32 to_center = i32(128), x = p.x - to_center, y = p.y - to_center;
-  const Neighbours column = neighbours(shift_right<8>(x), p.width, use), row = neighbours(shift_right<8>(y), p.height, use);
-  const I32 top = p.base + row.first * p.width, bottom = p.base + row.second * p.width;
-  r.index[0] = top + column.first, r.index[1] = top + column.second;
-  r.index[2] = bottom + column.first, r.index[3] = bottom + column.second;
+  const I32 to_first = i32(nearest ? 256 : 128), x = p.x - to_first, y = p.y - to_first;
+  const Neighbours<2> column = neighbours<2>(shift_right<8>(x), p.width, use), row = neighbours<2>(shift_right<8>(y), p.height, use);
+  const I32 bottom = p.base + row.texel[1] * p.width;
+  r.index[0] = bottom + column.texel[1];
+  if (nearest) return r;
+  const I32 top = p.base + row.texel[0] * p.width;
+  r.index[0] = top + column.texel[0], r.index[1] = top + column.texel[1];
+  r.index[2] = bottom + column.texel[0], r.index[3] = bottom + column.texel[1];
   r.fx = x & i32(255), r.fy = y & i32(255);
   return r;
 }

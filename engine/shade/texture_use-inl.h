@@ -37,7 +37,6 @@ struct UseLanes : MapLanes {
   I32 width, height;    // of level 0
   Mask clamp;
   bool any_clamp;
-  bool masks = false;   // all lanes repeat, and all sides are powers of two: coordinates wrap by their low bits (find_masks)
   F32 s, t;             // in [0, 1], t down from the top row
   I32 level_256;        // level of detail times 256, in [0, 256 * (levels - 1)]
 
@@ -121,12 +120,6 @@ HWY_INLINE UseLanes open_use(const SceneData& scene, I32 index, bool uniform, Ma
   }
   use.level_256 = level_of_detail(uv, scale_u * to_f32(use.width), scale_v * to_f32(use.height), use.texture_word(scene, 2));
   return use;
-}
-
-// Sets use.masks: pays where many coordinates are wrapped.
-HWY_INLINE void find_masks(UseLanes& use) {
-  const auto without_lowest_bit = [](I32 size) HWY_ATTR { return size & (size - i32(1)); };  // 0: a power of two
-  use.masks = !use.any_clamp && all((without_lowest_bit(use.width) | without_lowest_bit(use.height)) == i32(0));
 }
 
 // True where some lane uses a texture in this slot: else the whole stage is skipped.
