@@ -1,6 +1,8 @@
 // `compare`: what it measures, and when it fails.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "spanray/image.h"
 #include "support/program.h"
 
@@ -64,6 +66,72 @@ TEST_F(ProgramCompare, DifferencePictureIsWritten) {
   EXPECT_EQ(1, run({"a.png", "b.png", "--diff", "no/d.png"}).code);
 }
 
+TEST_F(ProgramCompare, EveryMetricIsPrintedAndMayBeBounded) {
+  Image b = gray(50, 20, 100);
+  b.rgba[4 * 37 + 1] = 130;
+  write("a.png", gray(50, 20, 100)), write("b.png", b);
+  const Ran ran = run({"a.png", "b.png", "--max-error", "max=30", "--max-error", "p99.9=0"});
+  EXPECT_EQ(0, ran.code) << ran.error << "pixels that differ are not counted then";
+  for (const char* word : {"max           30 of 255\n", "p99.9         0 of 255\n", "over_1        0.001 ", "rmse          ", "rmse_linear   0.00",
+                           "relmse        ", "psnr_db       53.", "ssim          0.9", "flip          0.00", "wrong_pixels  1 of 1000"})
+    EXPECT_NE(std::string::npos, ran.out.find(word)) << word << "\n" << ran.out;
+  for (const char* kept : {"over_1=0.001", "rmse_linear=0.01", "relmse=0.1", "psnr_db=53", "ssim=0.9", "FLIP=0.02"})
+    EXPECT_EQ(0, run({"a.png", "b.png", "--max-error", kept}).code) << kept;
+  for (const char* broken : {"max=29", "over_1=0.0009", "rmse_linear=1e-6", "relmse=0", "psnr_db=60", "ssim=0.99999", "flip=0.0001"}) {
+    const Ran past = run({"a.png", "b.png", "--max-error", "max=255", "--max-error", broken});
+    EXPECT_EQ(1, past.code) << broken;
+    EXPECT_NE(std::string::npos, past.error.find(", allowed is at ")) << past.error;
+  }
+  EXPECT_EQ(1, run({"a.png", "b.png", "--max-error", "max=30", "--max-wrong", "0"}).code) << "asked for both, both decide";
+  EXPECT_EQ(0, run({"a.png", "b.png", "--max-error", "max=30", "--max-wrong", "1"}).code);
+  for (const char* nonsense : {"max", "max=", "max=x", "nothing=1", "flip=nan", "=1"}) {
+    const Ran bad = run({"a.png", "b.png", "--max-error", nonsense});
+    EXPECT_EQ(2, bad.code) << nonsense;
+    EXPECT_EQ("", bad.out);
+  }
+  EXPECT_NE(std::string::npos, run({"a.png", "b.png", "--max-error", "flop=1"}).error.find("did you mean 'flip'?"));
+}
+
+TEST_F(ProgramCompare, MapsAreWrittenWithALegend) {
+  Image b = gray(200, 40, 100);
+  for (size_t i = 4 * 200 * 20; i < 4 * 200 * 21; ++i)
+    if (i % 4 != 3) b.rgba[i] = 180;
+  write("a.png", gray(200, 40, 100)), write("b.png", b);
+  EXPECT_EQ(0, run({"a.png", "b.png", "--max", "255", "--error-map", "e.png", "--flip-map", "f.png"}).code);
+  for (const char* name : {"e.png", "f.png"}) {
+    const Result<Image> map = read_png(folder_.file(name));
+    ASSERT_TRUE(map);
+    EXPECT_EQ(200, map.value().width);
+    EXPECT_EQ(64, map.value().height);
+    const auto red = [&](size_t y) { return int{map.value().rgba[4 * (200 * y + 100)]}; };
+    EXPECT_GT(red(20), 100) << name;
+    EXPECT_LT(red(2), 10) << name;
+  }
+  EXPECT_EQ(1, run({"a.png", "b.png", "--flip-map", "no/f.png"}).code);
+  EXPECT_EQ(2, run({"a.png", "b.png", "--flip-map", "b.png"}).code);
+}
+
+TEST_F(ProgramCompare, RadianceIsComparedAsItIsShown) {
+  const auto pfm = [&](const std::string& name, float value) {
+    std::string text = "PF\n2 1\n-1.0\n";
+    for (int i = 0; i < 6; ++i) text.append(reinterpret_cast<const char*>(&value), 4);
+    folder_.write(name, text);
+  };
+  pfm("a.pfm", 0.5f), pfm("b.pfm", 0.25f), pfm("c.pfm", 0.2501f), pfm("n.pfm", NAN);
+  write("a.png", gray(2, 1, 188));  // sRGB of 0.5
+  Ran ran = run({"a.pfm", "b.pfm"});
+  EXPECT_EQ(1, ran.code);
+  EXPECT_NE(std::string::npos, ran.out.find("rmse_linear   0.25\n")) << ran.out;
+  ran = run({"b.pfm", "c.pfm"});
+  EXPECT_EQ(0, ran.code) << "the same bytes";
+  EXPECT_NE(std::string::npos, ran.out.find("rmse_linear   9.9")) << ran.out;
+  EXPECT_EQ(1, run({"b.pfm", "c.pfm", "--max-error", "rmse_linear=0.00001"}).code);
+  EXPECT_EQ(0, run({"a.png", "a.pfm"}).code);
+  ran = run({"a.pfm", "n.pfm"});
+  EXPECT_EQ(1, ran.code);
+  EXPECT_NE(std::string::npos, ran.error.find("pixel 0,0 of the second picture is not finite")) << ran.error;
+}
+
 TEST_F(ProgramCompare, SizesMustAgree) {
   write("a.png", gray(4, 4, 1)), write("b.png", gray(4, 5, 1));
   const Ran ran = run({"a.png", "b.png"});
@@ -89,6 +157,7 @@ TEST_F(ProgramCompare, BadInput) {
   EXPECT_EQ(1, run({"l.json", "l.json"}).code);
   EXPECT_EQ(2, run({"a.png", "l.json"}).code);
   EXPECT_EQ(2, run({"l.json", "l.json", "--diff", "d.png"}).code);
+  EXPECT_EQ(2, run({"l.json", "l.json", "--max-error", "flip=1"}).code);
   EXPECT_EQ(2, run({"a.png"}).code);
   EXPECT_EQ(2, run({"a.png", "a.png", "--max", "256"}).code);
   EXPECT_EQ(2, run({"a.png", "a.png", "--max-wrong", "-1"}).code);
