@@ -51,10 +51,11 @@ int run_program(int argc, char** argv) {
   add_compare(app, run);
   add_info(app, run);
   add_why(app, run);
+  add_reference(app, run);
   add_missing(app, run);
   try {
     app.parse(argc, argv);
-    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info or why");
+    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info, why or reference");
     const int code = run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("cannot write to standard output");
     return code;

@@ -1,0 +1,24 @@
+// How far something long is, on stderr: a line that is written over on a terminal, else a message every ten seconds.
+#pragma once
+#include <chrono>
+#include <string>
+
+namespace spanray::demo {
+
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string what);
+  // fraction: 0 to 1, not falling.
+  void show(double fraction);
+  // Before anything else is said.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const std::string what_;
+  const bool terminal_;
+  const Clock::time_point start_;
+  Clock::time_point shown_;
+};
+
+}  // namespace spanray::demo

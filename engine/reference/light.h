@@ -1,0 +1,25 @@
+// Light on a surface, in double, from the definitions of the model (docs/decisions/0004-units-and-mtl.md).
+#pragma once
+#include "reference/surface.h"
+
+namespace spanray::reference {
+
+// Light that arrives at a point: the unit vector toward it (zero: none), and W/m^2 on a surface that faces it, for intensity 1.
+struct Incidence { glm::dvec3 direction{0}; double irradiance = 0; };
+Incidence incidence(const Light& light, const glm::dvec3& position);
+
+// Where rays from a surface start.
+glm::dvec3 start_above(const Surface& s);
+
+// The segment that must be free for the light to reach a point: origin + t * direction, 0 < t <= t_max.
+struct Way { Line line; double t_max = 0; };
+Way way_to(const Light& light, const glm::dvec3& origin);
+
+// Ambient light and emission.
+glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s);
+// May the light reach the surface at all, shadows aside?
+bool faces(const Surface& s, const Light& light);
+// Radiance toward `viewer` by one light that reaches the surface, W/(m^2 sr).
+glm::dvec3 reflected(const SceneData& scene, Shading shading, const Surface& s, const Light& light, const glm::dvec3& viewer);
+
+}  // namespace spanray::reference

@@ -1,0 +1,54 @@
+// From a ray and the triangle that it met to everything that light needs, in double.
+#pragma once
+#include "reference/texture.h"
+#include "reference/tree.h"
+
+namespace spanray::reference {
+
+// What a material means to visibility under some settings (docs/decisions/0003-transparency.md).
+enum class Role { kOpaque, kMask, kScreenDoor, kBlended };
+Role role_of(const Material& material, const Settings& settings);
+
+// A ray with its footprint: how origin and direction change by a pixel in x and y (Igehy 1999); zero: a point.
+struct Ray {
+  Line line;
+  glm::dvec3 origin_dx{0}, origin_dy{0}, direction_dx{0}, direction_dy{0};
+  int x = 0, y = 0;      // the pixel that started it: where it stands in the screen-door pattern
+  int rank_shift = 0;    // of the pattern, for the samples of a pixel
+};
+
+struct Surface {
+  uint32_t primitive = kNoPrimitive;
+  double t = 0, weight[3] = {};
+  glm::dvec3 position{0}, geometric{0}, normal{0}, view{0};  // unit vectors; geometric: toward the ray's origin
+  glm::dvec3 position_dx{0}, position_dy{0};
+  glm::dvec3 ambient{0}, diffuse{0}, specular{0}, emission{0}, mirror{0};
+  double shininess = 1, opacity = 1;
+  double clearance = 0;  // rays that leave the surface start this far above it
+};
+
+class Surfaces {
+ public:
+  Surfaces(const SceneData& scene, const Settings& settings);
+
+  Surface at(const Ray& ray, uint32_t primitive) const;
+  // Do cut-outs and screen-door let the surface stop the ray? And does culling?
+  bool stops(const Ray& ray, uint32_t primitive) const;
+  Role role(uint32_t primitive) const { return role_[material_of(scene_.triangles[primitive])]; }
+  const Material& material(uint32_t primitive) const { return scene_.materials[material_of(scene_.triangles[primitive])]; }
+
+ private:
+  struct Point;  // where the ray meets the plane of the triangle
+  Point point_at(const Ray& ray, uint32_t primitive) const;
+  glm::dvec3 interpolated_normal(const Point& point, uint32_t primitive) const;
+  glm::dvec3 bumped(const Point& point, const Material& material, glm::dvec3 normal) const;
+  void apply_maps(const Point& point, const Material& material, Surface& s) const;
+  const TextureUse* use(int32_t map) const;
+
+  const SceneData& scene_;
+  const Settings settings_;
+  const Textures textures_;
+  std::vector<Role> role_;  // by material
+};
+
+}  // namespace spanray::reference

@@ -1,0 +1,101 @@
+// Which triangles does a ray meet? In double, one ray at a time.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "math/vec.h"
+#include "scene/scene_data.h"
+
+namespace spanray::reference {
+
+struct Line { glm::dvec3 origin{0}, direction{0}; };  // origin + t * direction; the direction has any length
+
+// Does the line meet the triangle, and at which t (of any sign)?
+// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection": vertices sheared so that the line is an axis, then a test in the
+//           plane, whose signs are exact here. Edges and vertices count as inside, for every triangle that has them.
+// Contract: no line slips between triangles that share vertices. t lies within the range of the corners.
+bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
+
+struct Met {
+  double t = std::numeric_limits<double>::infinity();
+  uint32_t primitive = kNoPrimitive;
+};
+
+// A bounding volume hierarchy over some triangles of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a leaf.
+// It only saves work: everything is decided by meets(), so the answers are those of asking every triangle.
+class Tree {
+ public:
+  Tree(const SceneData& scene, const std::vector<uint32_t>& primitives);
+
+  // The least t in (t_min, t_max] that accept(primitive, t) takes; of equal ones the lowest id. accept is asked for candidates only.
+  template <class Accept> Met closest(const Line& line, double t_min, double t_max, const Accept& accept) const {
+    Met best;
+    walk(line, t_max, [&](uint32_t primitive, double t, double& limit) {
+      if (!(t > t_min) || t > best.t || (t == best.t && primitive > best.primitive) || !accept(primitive, t)) return false;
+      best = {t, primitive}, limit = t;
+      return false;
+    });
+    return best;
+  }
+  // Whether accept takes any hit in (t_min, t_max].
+  template <class Accept> bool any(const Line& line, double t_min, double t_max, const Accept& accept) const {
+    bool found = false;
+    walk(line, t_max, [&](uint32_t primitive, double t, double&) { return found = t > t_min && accept(primitive, t); });
+    return found;
+  }
+  // All hits in (t_min, t_max] that accept takes, in no order.
+  template <class Accept> std::vector<Met> all(const Line& line, double t_min, double t_max, const Accept& accept) const {
+    std::vector<Met> found;
+    walk(line, t_max, [&](uint32_t primitive, double t, double&) {
+      if (t > t_min && accept(primitive, t)) found.push_back({t, primitive});
+      return false;
+    });
+    return found;
+  }
+  bool empty() const { return item_.empty(); }
+
+ private:
+  struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p);
+    void add(const Box& b) { add(b.low), add(b.high); }
+    double half_area() const;
+  };
+  struct Node {
+    Box box;
+    uint32_t first = 0, count = 0;  // items of a leaf; else the right child is `first`, the left one the next node
+  };
+  struct Item { uint32_t primitive; glm::dvec3 v[3]; };
+  struct Reference { Box box; glm::dvec3 center; uint32_t primitive; };
+
+  void build(std::vector<Reference>& list, size_t begin, size_t end);
+  static size_t split(std::vector<Reference>& list, size_t begin, size_t end);
+  static bool enters(const Box& box, const Line& line, double t_max);
+
+  // visit(primitive, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
+  template <class Visit> void walk(const Line& line, double t_max, const Visit& visit) const {
+    if (node_.empty()) return;
+    uint32_t stack[128];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const uint32_t at = stack[--depth];
+      const Node& node = node_[at];
+      if (!enters(node.box, line, t_max)) continue;
+      if (node.count == 0) {
+        stack[depth++] = node.first, stack[depth++] = at + 1;
+        continue;
+      }
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        double t;
+        if (meets(line, item_[i].v, t) && t <= t_max && visit(item_[i].primitive, t, t_max)) return;
+      }
+    }
+  }
+
+  std::vector<Node> node_;
+  std::vector<Item> item_;
+};
+
+}  // namespace spanray::reference
