@@ -50,4 +50,10 @@ PrimaryRays make_primary_rays(const Camera& camera, int width, int height) {
   return rays;
 }
 
+void round_primary_ray(const PrimaryRays& primary, double x, double y, float (&origin)[3], float (&direction)[3]) {
+  const glm::dvec3 d = primary.corner + primary.step_x * x + primary.step_y * y;
+  const glm::dvec3 o = primary.eye + d * primary.near_plane;
+  for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(o[k]), direction[k] = static_cast<float>(d[k]);
+}
+
 }  // namespace spanray

@@ -10,4 +10,7 @@ namespace spanray {
 // (nearly) parallel to it is replaced by an axis that is not.
 PrimaryRays make_primary_rays(const Camera& camera, int width, int height);
 
+// The ray through (x, y), in pixels, as visibility engine 2 traces it: from the near plane on, t counts view depth from there.
+void round_primary_ray(const PrimaryRays& primary, double x, double y, float (&origin)[3], float (&direction)[3]);
+
 }  // namespace spanray

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "frame/primary_rays.h"
 #include "raster/depth_plane.h"
 #include "raster/raster.h"
 #include "render/tile.h"
@@ -190,18 +191,14 @@ class SlotMaker {
 }  // namespace
 
 void make_primary_batch(const Frame& frame, const uint32_t* pixel, int count, int place, RayBatch& rays) {
-  const PrimaryRays& p = frame.primary;
   rays.resize(count, false);
   rays.primary = true;  // accept(hit) then asks the exact rays, as the rasterizer does
   rays.place = place;
   for (int i = 0; i < count; ++i) {
     const double x = (pixel[i] & 0xffff) + frame.places.x[place], y = (pixel[i] >> 16) + frame.places.y[place];
-    const glm::dvec3 d = p.corner + p.step_x * x + p.step_y * y;
-    const glm::dvec3 o = p.eye + d * p.near_plane;  // t counts view depth: rays start at the near plane
-    for (int k = 0; k < 3; ++k) {
-      rays.origin[k][i] = static_cast<float>(o[k]);
-      rays.direction[k][i] = static_cast<float>(d[k]);
-    }
+    float origin[3], direction[3];
+    round_primary_ray(frame.primary, x, y, origin, direction);
+    for (int k = 0; k < 3; ++k) rays.origin[k][i] = origin[k], rays.direction[k][i] = direction[k];
     rays.t_max[i] = std::numeric_limits<float>::infinity();
     rays.pixel[i] = pixel[i];
   }

@@ -157,6 +157,7 @@ Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_use
       SoupTriangle t;
       for (size_t k = 0; k < 3; ++k) t.corner[k] = vertex_of(mesh, mesh.corners[face.first_corner + corners[i + k]]);
       t.material = material_of_used[face.material];
+      t.object = face.object, t.group = face.group;
       soup.triangles.push_back(t);
     }
   }
@@ -206,6 +207,7 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
   if (!progress("merging vertices", 0)) return stopped;
   const Result<BuildReport> built = build_geometry(soup.triangles, scene);
   if (!built) return Error{built.error().message, path};
+  scene.part_names = std::move(mesh.part_names);
   report(built.value(), soup.first_unusable_line, path, messages);
   if (scene.triangles.empty()) messages.warn(path, 0, "no triangles: the picture will show the background only");
   return {};

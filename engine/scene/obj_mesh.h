@@ -22,6 +22,7 @@ struct ObjFace {
   uint32_t material;                    // index into used_materials
   uint32_t smoothing;                   // group; 0: off; kSmoothingNotGiven: before any `s`
   int32_t line;
+  uint32_t object, group;               // indices into part_names
 };
 
 struct ObjNamed {
@@ -34,6 +35,7 @@ struct ObjMesh {
   std::vector<ObjCorner> corners;
   std::vector<ObjFace> faces;
   std::vector<ObjNamed> used_materials;  // [0] is "": faces before any usemtl
+  std::vector<std::string> part_names = {""};  // of `o` and `g`, the rest of the line, each once
   std::vector<ObjNamed> libraries;       // mtllib, the rest of the line
 };
 

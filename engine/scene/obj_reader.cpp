@@ -30,7 +30,7 @@ namespace {
 // Statements that are known and say nothing about surfaces of polygons.
 bool is_ignored_statement(std::string_view key) {
   for (const char* known :
-       {"g", "o", "l", "p", "mg", "vp", "lod", "shadow_obj", "trace_obj", "usemap", "maplib", "bevel", "c_interp", "d_interp"})
+       {"l", "p", "mg", "vp", "lod", "shadow_obj", "trace_obj", "usemap", "maplib", "bevel", "c_interp", "d_interp"})
     if (key == known) return true;
   return false;
 }
@@ -49,6 +49,8 @@ class Guard : public std::streambuf {
   int line() const { return lines_.line_number(); }
   const float* numbers() const { return numbers_; }  // of the v, vn or vt line that was handed out last
   uint32_t smoothing() const { return smoothing_; }
+  uint32_t object() const { return object_; }
+  uint32_t group() const { return group_; }
   bool failed() const { return failed_; }
   const Error& error() const { return error_; }
   int fail(const std::string& message) {
@@ -99,8 +101,16 @@ class Guard : public std::streambuf {
     if (key == "usemtl") return current_.assign("usemtl ").append(trim(rest)), true;
     if (key == "mtllib") return mesh_.libraries.push_back({std::string(trim(rest)), line()}), false;
     if (key == "s") return vet_smoothing(rest), false;
+    if (key == "o") return object_ = part_name(rest), false;
+    if (key == "g") return group_ = part_name(rest), false;
     if (!is_ignored_statement(key)) note_unknown(key);
     return false;
+  }
+
+  uint32_t part_name(std::string_view rest) {
+    const auto [it, is_new] = part_index_.try_emplace(std::string(trim(rest)), static_cast<uint32_t>(mesh_.part_names.size()));
+    if (is_new) mesh_.part_names.push_back(it->first);
+    return it->second;
   }
 
   void note_unknown(std::string_view key) {
@@ -191,7 +201,8 @@ class Guard : public std::streambuf {
   const Progress& progress_;
   std::string current_;
   float numbers_[3] = {};
-  uint32_t smoothing_ = kSmoothingNotGiven;
+  uint32_t smoothing_ = kSmoothingNotGiven, object_ = 0, group_ = 0;
+  std::unordered_map<std::string, uint32_t> part_index_ = {{"", 0}};
   uint64_t statements_ = 0, unknown_ = 0, short_faces_ = 0;
   int unknown_line_ = 0, short_line_ = 0;
   std::string unknown_word_;
@@ -228,7 +239,8 @@ struct Builder {
   static void on_face(void* self, tinyobj::index_t* indices, int count) {
     Builder& b = of(self);
     const uint32_t first = static_cast<uint32_t>(b.mesh.corners.size());
-    b.mesh.faces.push_back({first, static_cast<uint32_t>(count), b.material, b.guard.smoothing(), b.guard.line()});
+    b.mesh.faces.push_back(
+        {first, static_cast<uint32_t>(count), b.material, b.guard.smoothing(), b.guard.line(), b.guard.object(), b.guard.group()});
     for (int i = 0; i < count; ++i)
       b.mesh.corners.push_back({b.resolve(indices[i].vertex_index, b.mesh.positions.size() / 3, "vertex"),
                                 b.resolve(indices[i].texcoord_index, b.mesh.uvs.size() / 2, "texture coordinate"),

@@ -89,6 +89,7 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
   BuildReport report;
   scene.vertices.clear();
   scene.triangles.clear();
+  scene.parts.clear();
   std::unordered_map<VertexKey, uint32_t, VertexKeyHash> index_of;
   index_of.reserve(soup.size());
   bool empty = true;
@@ -108,6 +109,8 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
       }
       empty = false;
     }
+    if (scene.parts.empty() || scene.parts.back().object != t.object || scene.parts.back().group != t.group)
+      scene.parts.push_back({static_cast<uint32_t>(scene.triangles.size()), t.object, t.group});
     scene.triangles.push_back(canonical_triangle(scene.vertices, index, t.material));
     if (scene.vertices.size() > kMostVertices || scene.triangles.size() > kMostTriangles)
       return Error{"the scene is too large: at most 2^27 distinct vertices and 2^28 triangles"};
@@ -136,6 +139,7 @@ SceneData make_test_scene(const std::vector<SoupTriangle>& soup, std::vector<Mat
   if (materials.empty()) materials.emplace_back();
   scene.materials = std::move(materials);
   scene.material_names.assign(scene.materials.size(), "material");
+  scene.part_names = {""};
   scene.cameras.emplace_back();
   scene.camera_names.emplace_back("default");
   (void)build_geometry(soup, scene);

@@ -12,6 +12,7 @@ namespace spanray {
 struct SoupTriangle {
   Vertex corner[3];
   uint32_t material = 0;
+  uint32_t object = 0, group = 0;  // names, as in ScenePart
 };
 
 // Positions that scenes can hold: finite, each coordinate at most 1e30 like those of cameras, so that what is derived from
@@ -31,7 +32,7 @@ struct BuildReport {
 };
 
 // Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material)
-// corners into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds.
+// corners into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds and parts.
 // Material indices must be below scene.materials.size(). Errors: too many vertices for 32-bit gathers.
 Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene);
 

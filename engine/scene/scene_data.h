@@ -95,11 +95,18 @@ inline constexpr int kMaxLights = 64;
 
 struct CameraKey { double time; Camera camera; };  // seconds; a camera path is a list of these, in order of time
 
+// The triangles from `first` on, up to the next part, belong to these names of the OBJ (`o`, `g`). No pixel depends on it.
+struct ScenePart {
+  uint32_t first = 0, object = 0, group = 0;  // names: indices into SceneData::part_names
+};
+
 struct SceneData {
   AlignedBuffer<Vertex> vertices;
   AlignedBuffer<Triangle> triangles;
   std::vector<Material> materials;  // never empty
   std::vector<std::string> material_names;
+  std::vector<ScenePart> parts;         // ascending; those without a triangle are left out
+  std::vector<std::string> part_names;  // [0] is "": faces before any `o` or `g`
   std::vector<TextureUse> texture_uses;
   std::vector<Texture> textures;
   std::vector<std::string> texture_names;

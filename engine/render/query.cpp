@@ -1,0 +1,294 @@
+// Questions outside of frames: one tree over all triangles, asked by the tracer of frames (rays) and by ray/sweep.h (spheres).
+#include "spanray/query.h"
+
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <new>
+
+#include "core/fp_env.h"
+#include "frame/primary_rays.h"
+#include "frame/transparency.h"
+#include "ray/bvh.h"
+#include "ray/sweep.h"
+#include "ray/triangle_test.h"
+#include "render/check_request.h"
+#include "render/make_frame.h"
+#include "shade/surface.h"
+
+namespace spanray {
+namespace {
+
+constexpr double kMostCoordinate = 1e30, kLeastWay = 1e-30;
+
+// accept(hit) with surfaces that rays pass wholly through.
+bool accept_asked(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive) {
+  return (flags_of(frame, primitive) & kMaterialTranslucent) == 0 && accept_ray(frame, rays, ray, primitive);
+}
+
+// What is wrong with a ray, or null.
+const char* fault_of(const Ray& r) {
+  const auto finite3 = [](const float* v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
+  if (!finite3(r.origin)) return "the origin is not finite";
+  if (!finite3(r.direction)) return "the direction is not finite";
+  if (r.direction[0] == 0 && r.direction[1] == 0 && r.direction[2] == 0) return "the direction is zero";
+  if (!(r.t_min >= 0) || !std::isfinite(r.t_min)) return "t_min is negative or not finite";
+  if (!(r.t_max >= 0)) return "t_max is negative or NaN";
+  return r.t_min > r.t_max ? "t_min is greater than t_max" : nullptr;
+}
+
+const char* fault_of(const double (&center)[3], double radius) {
+  for (const double x : center)
+    if (!(std::fabs(x) <= kMostCoordinate)) return "a coordinate is not finite, or beyond 1e30";
+  return radius >= 0 && radius <= kMostCoordinate ? nullptr : "the radius is negative, not finite, or beyond 1e30";
+}
+
+glm::dvec3 to_dvec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+void store(const glm::dvec3& v, double (&out)[3]) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+RayBatch batch_of(std::span<const Ray> rays) {
+  RayBatch batch;
+  batch.resize(static_cast<int>(rays.size()), false);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    for (int k = 0; k < 3; ++k) batch.origin[k][i] = rays[i].origin[k], batch.direction[k][i] = rays[i].direction[k];
+    batch.t_max[i] = rays[i].t_max;
+    batch.pixel[i] = 0;
+  }
+  return batch;
+}
+
+// Runs a question under the default floating-point environment; what it throws becomes an error.
+template <class F> auto guarded(F&& question) -> decltype(question()) {
+  const FpEnvGuard guard;
+  try {
+    return question();
+  } catch (const std::bad_alloc&) {
+    return Error{"out of memory for the tree of this scene"};
+  } catch (const std::exception& e) {
+    return Error{std::string("cannot ask the scene: ") + e.what()};
+  }
+}
+
+}  // namespace
+
+struct SceneQuery::Impl {
+  Scene scene;
+  QueryOptions options;
+  std::once_flag built;  // what stands below is read only from then on
+  std::optional<Parallel> one;  // frames point at a pool; questions run in the thread that asks
+  Frame frame;
+  std::vector<uint32_t> for_rays, for_pixels, solid;  // MaterialFlags by material, of the three kinds of questions
+  Bvh bvh;
+
+  Impl(Scene asked, const QueryOptions& wanted) : scene(std::move(asked)), options(wanted) {}
+
+  Settings settings() const {
+    Settings s;
+    s.width = s.height = 1;
+    s.transparency = options.transparency, s.filter = options.filter, s.isa = options.isa;
+    s.visibility = Visibility::kRay, s.shadows = Shadows::kNone, s.reflections = Reflections::kNone;
+    s.bump = false;
+    return s;
+  }
+
+  // Thread-safe, and tried again after it failed.
+  Result<void> prepare() {
+    if (auto checked = check_request(scene, Camera(), settings()); !checked) return checked;
+    std::call_once(built, [this] { build(); });
+    return {};
+  }
+
+  void build() {
+    const SceneData& data = scene.data();
+    const Settings s = settings();
+    solid.assign(data.materials.size(), 0), for_rays = for_pixels = solid;
+    for (size_t i = 0; i < data.materials.size(); ++i) {
+      const MaterialTransparency kind = effective_transparency(data.materials[i], s);
+      if (kind == MaterialTransparency::kAlpha && !options.translucent)
+        for_rays[i] = for_pixels[i] = kMaterialTranslucent | kMaterialMasked;
+      if (options.cutouts && kind == MaterialTransparency::kMask) for_rays[i] = for_pixels[i] = kMaterialMasked;
+      if (options.cutouts && kind == MaterialTransparency::kScreenDoor) for_pixels[i] = kMaterialMasked;
+    }
+    one.emplace(1);
+    frame = make_frame(data, Camera(), s, make_plan(data, find_scene_use(data), s), *one);
+    frame.material_flags = for_rays.data();
+    frame.accept_ray = accept_asked;
+    Parallel all(0);
+    bvh = build_bvh(data, solid.data(), 0, 0, all);
+  }
+
+  Frame frame_for(const std::vector<uint32_t>& flags) const {
+    Frame f = frame;
+    f.material_flags = flags.data();
+    return f;
+  }
+
+  TriangleName name_of(uint32_t primitive) const {
+    const SceneData& data = scene.data();
+    TriangleName name;
+    name.triangle = primitive;
+    name.material_index = material_of(data.triangles[primitive]);
+    name.material = data.material_names[name.material_index];
+    const auto next = std::upper_bound(data.parts.begin(), data.parts.end(), primitive,
+                                       [](uint32_t p, const ScenePart& part) { return p < part.first; });
+    name.object = data.part_names[(next - 1)->object], name.group = data.part_names[(next - 1)->group];
+    return name;
+  }
+
+  // The hit of a ray that is known to meet a triangle.
+  RayHit hit_of(const Ray& r, uint32_t primitive) const {
+    const Triangle& triangle = scene.data().triangles[primitive];
+    float corners[9];
+    glm::dvec3 v[3];
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) v[i][k] = corners[3 * i + k] = scene.data().vertices[triangle.vertex[i]].position[k];
+    RayHit hit;
+    hit.name = name_of(primitive);
+    TraceRay ray;
+    if (!prepare_ray(r.origin, r.direction, r.t_max, ray) || !hit_triangle(ray, TriangleView{corners, 3, 1}, hit.t)) return hit;
+    hit.t *= ray.direction_z / static_cast<double>(r.direction[ray.kz]);  // a power of two
+    const glm::dvec3 origin(r.origin[0], r.origin[1], r.origin[2]), direction(r.direction[0], r.direction[1], r.direction[2]);
+    hit.distance = hit.t * length3(direction);
+    store(origin + direction * hit.t, hit.position);
+    glm::dvec3 normal = normalize3(cross3(v[1] - v[0], v[2] - v[0]), glm::dvec3(0));
+    if ((triangle.bits & kTriangleFlipped) != 0) normal = -normal;
+    store(normal, hit.normal);
+    hit.front = facing(scene.data(), triangle, origin) >= 0;
+    return hit;
+  }
+
+  // The same among hits at t_min or beyond: all hits are asked for, since the tracer knows no t_min.
+  std::optional<RayHit> first_beyond(const Frame& f, const Ray& ray) const {
+    FragmentList list;
+    trace_all(f, bvh, batch_of({&ray, 1}), list);
+    std::optional<RayHit> best;
+    for (const uint32_t primitive : list.primitive) {
+      const RayHit hit = hit_of(ray, primitive);
+      if (hit.t < static_cast<double>(ray.t_min)) continue;
+      if (!best || hit.t < best->t || (hit.t == best->t && primitive < best->name.triangle)) best = hit;
+    }
+    return best;
+  }
+
+  std::vector<std::optional<RayHit>> closest(const Frame& f, std::span<const Ray> rays) const {
+    std::vector<uint32_t> primitive(rays.size());
+    trace_closest(f, bvh, batch_of(rays), primitive.data());
+    std::vector<std::optional<RayHit>> hits(rays.size());
+    for (size_t i = 0; i < rays.size(); ++i) {
+      if (primitive[i] == kNoPrimitive) continue;
+      hits[i] = hit_of(rays[i], primitive[i]);
+      if (hits[i]->t < static_cast<double>(rays[i].t_min)) hits[i] = first_beyond(f, rays[i]);
+    }
+    return hits;
+  }
+
+  std::optional<SweepHit> sweep_ray(const glm::dvec3& start, const glm::dvec3& motion) const {
+    Ray ray;
+    for (int k = 0; k < 3; ++k) ray.origin[k] = static_cast<float>(start[k]), ray.direction[k] = static_cast<float>(motion[k]);
+    ray.t_max = 1;
+    const std::optional<RayHit> met = closest(frame_for(solid), {&ray, 1})[0];
+    if (!met) return std::nullopt;
+    SweepHit hit;
+    hit.name = met->name, hit.time = met->t, hit.distance = met->distance;
+    for (int k = 0; k < 3; ++k) {
+      hit.center[k] = hit.position[k] = met->position[k];
+      hit.normal[k] = met->front ? met->normal[k] : -met->normal[k];
+    }
+    return hit;
+  }
+};
+
+SceneQuery::SceneQuery(Scene scene, const QueryOptions& options) : impl_(std::make_shared<Impl>(std::move(scene), options)) {}
+
+Result<void> SceneQuery::prepare() const {
+  return guarded([&] { return impl_->prepare(); });
+}
+
+Result<std::optional<RayHit>> SceneQuery::closest(const Ray& ray) const {
+  if (const char* fault = fault_of(ray)) return Error{std::string("the ray: ") + fault};
+  Result<std::vector<std::optional<RayHit>>> hits = closest({&ray, 1});
+  if (!hits) return hits.error();
+  return hits.value()[0];
+}
+
+Result<std::vector<std::optional<RayHit>>> SceneQuery::closest(std::span<const Ray> rays) const {
+  return guarded([&]() -> Result<std::vector<std::optional<RayHit>>> {
+    if (rays.size() > static_cast<size_t>(std::numeric_limits<int>::max())) return Error{"more than 2^31 - 1 rays at once"};
+    for (size_t i = 0; i < rays.size(); ++i)
+      if (const char* fault = fault_of(rays[i])) return Error{"ray " + std::to_string(i) + ": " + fault};
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    return impl_->closest(impl_->frame, rays);
+  });
+}
+
+Result<bool> SceneQuery::any(const Ray& ray) const {
+  return guarded([&]() -> Result<bool> {
+    if (const char* fault = fault_of(ray)) return Error{std::string("the ray: ") + fault};
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    if (ray.t_min > 0) return impl_->first_beyond(impl_->frame, ray).has_value();
+    uint32_t bits = 0;
+    trace_any(impl_->frame, impl_->bvh, batch_of({&ray, 1}), &bits);
+    return (bits & 1u) != 0;
+  });
+}
+
+Result<std::optional<RayHit>> SceneQuery::pixel(const Camera& camera, int width, int height, int x, int y) const {
+  return guarded([&]() -> Result<std::optional<RayHit>> {
+    Settings settings = impl_->settings();
+    settings.width = width, settings.height = height;
+    if (auto checked = check_request(impl_->scene, camera, settings); !checked) return checked.error();
+    if (x < 0 || y < 0 || x >= width || y >= height)
+      return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " is outside of the picture"};
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    Frame frame = impl_->frame_for(impl_->for_pixels);
+    frame.primary = make_primary_rays(camera, width, height);
+    Ray ray;
+    round_primary_ray(frame.primary, x + frame.places.x[0], y + frame.places.y[0], ray.origin, ray.direction);
+    RayBatch batch = batch_of({&ray, 1});
+    batch.primary = true, batch.pixel[0] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+    uint32_t primitive = kNoPrimitive;
+    trace_closest(frame, impl_->bvh, batch, &primitive);
+    if (primitive == kNoPrimitive) return std::optional<RayHit>();
+    return std::optional<RayHit>(impl_->hit_of(ray, primitive));
+  });
+}
+
+Result<std::optional<SweepHit>> SceneQuery::sweep(const SphereSweep& sphere) const {
+  return guarded([&]() -> Result<std::optional<SweepHit>> {
+    for (const auto* center : {&sphere.start, &sphere.end})
+      if (const char* fault = fault_of(*center, sphere.radius)) return Error{std::string("the sphere: ") + fault};
+    const glm::dvec3 start = to_dvec(sphere.start), end = to_dvec(sphere.end), motion = end - start;
+    const double length = length3(motion);
+    if (!(length > kLeastWay)) return Error{"the sphere: its start and end coincide"};
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    if (sphere.radius == 0) return impl_->sweep_ray(start, motion);
+    const SphereHit first = sweep_sphere(impl_->bvh, start, end, sphere.radius);
+    if (first.primitive == kNoPrimitive) return std::optional<SweepHit>();
+    SweepHit hit;
+    hit.name = impl_->name_of(first.primitive);
+    hit.time = first.contact.time, hit.distance = hit.time * length;
+    store(start + motion * hit.time, hit.center);
+    store(start + first.contact.point, hit.position);
+    store(first.contact.normal, hit.normal);
+    return std::optional<SweepHit>(hit);
+  });
+}
+
+Result<std::vector<SphereTouch>> SceneQuery::touching(const double (&center)[3], double radius) const {
+  return guarded([&]() -> Result<std::vector<SphereTouch>> {
+    if (const char* fault = fault_of(center, radius)) return Error{std::string("the sphere: ") + fault};
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    std::vector<SphereTouch> touches;
+    for (const SphereHit& hit : touch_sphere(impl_->bvh, to_dvec(center), radius)) {
+      SphereTouch touch;
+      touch.name = impl_->name_of(hit.primitive);
+      touch.distance = hit.distance;
+      store(to_dvec(center) + hit.contact.point, touch.position);
+      store(hit.contact.normal, touch.normal);
+      touches.push_back(touch);
+    }
+    return touches;
+  });
+}
+
+}  // namespace spanray
