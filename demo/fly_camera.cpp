@@ -65,4 +65,11 @@ void FlyCamera::move(double right, double up, double forward) {
   store(vector(camera_.target) + step, camera_.target);
 }
 
+void FlyCamera::place(const double (&eye)[3]) {
+  for (int k = 0; k < 3; ++k) {
+    camera_.target[k] += eye[k] - camera_.eye[k];
+    camera_.eye[k] = eye[k];
+  }
+}
+
 }  // namespace spanray::demo

@@ -13,6 +13,8 @@ class FlyCamera {
   void turn(double dx, double dy);
   // World units to the right, up (along Camera::up) and forward (where it looks).
   void move(double right, double up, double forward);
+  // Puts the eye there; the view stays as it is.
+  void place(const double (&eye)[3]);
 
  private:
   Camera camera_;

@@ -11,6 +11,7 @@
 #include "simd/isa.h"
 #include "spanray/settings_text.h"
 #include "stage_times.h"
+#include "visitor.h"
 
 namespace spanray::demo {
 namespace {
@@ -120,6 +121,8 @@ bool draw_switches(WalkSession& session) {
   label("maps");
   changed |= on_off("textures", s.textures, true);
   changed |= on_off("bump", s.bump, false);
+  label("walls");
+  on_off("stop you", session.walls(), true);
   changed |= number_row("threads", s.threads, 0, Parallel::available(), s.threads == 0 ? "one per processor" : "%d");
   changed |= enum_row<Isa>("instructions", s.isa, [](Isa isa) { return isa == Isa::kAuto || isa_supported(isa); });
   return changed;
@@ -199,6 +202,28 @@ void draw_camera(WalkSession& session, const PanelInput& input, PanelAction& act
     action.path_time = seconds;
 }
 
+// Three lines, whatever is there: what stands below must not jump.
+void draw_pointed(const WalkSession& session, const PanelInput& input) {
+  std::string material = "-", part = "-", triangle = "-";
+  if (input.pointed) material = "background";
+  if (input.pointed && input.under) {
+    const TriangleName& name = input.under->name;
+    material = name.material, part = name.object;
+    if (!name.group.empty()) part += (part.empty() ? "group " : ", group ") + std::string(name.group);
+    if (part.empty()) part = "without a name";
+    char text[64];
+    std::snprintf(text, sizeof text, "%u, %.4g away", name.triangle, distance_from(session.shown().order.camera.eye, *input.under));
+    triangle = text;
+  }
+  ImGui::PushTextWrapPos(-1);
+  for (const auto& [title, text] : {std::pair{"pointed at", &material}, {"object", &part}, {"triangle", &triangle}}) {
+    ImGui::TextDisabled("%s", title);
+    ImGui::SameLine(labels());
+    ImGui::TextUnformatted(text->c_str());
+  }
+  ImGui::PopTextWrapPos();
+}
+
 void draw_plan(WalkSession& session) {
   for (const PlanLine& line : session.plan()) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -228,6 +253,8 @@ PanelAction draw_panel(WalkSession& session, const PanelInput& input) {
   ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
   ImGui::PushTextWrapPos(panel_width() - ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize);
   draw_times(session);
+  ImGui::Spacing();
+  draw_pointed(session, input);
   ImGui::Spacing();
   if (ImGui::CollapsingHeader("Switches", open)) action.changed = draw_switches(session);
   if (ImGui::CollapsingHeader("Camera", open)) draw_camera(session, input, action);

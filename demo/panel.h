@@ -1,9 +1,11 @@
 // What the window shows over the picture, in Dear ImGui: the panel (F2), the keys (F1), how far loading is.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/scene_data.h"
+#include "spanray/query.h"
 #include "walk_session.h"
 
 namespace spanray::demo {
@@ -14,6 +16,8 @@ struct PanelInput {
   const std::vector<CameraKey>& path;  // empty: none
   bool playing = false;
   double path_time = 0;                // seconds since the path's first key
+  bool pointed = false;                // the next is known: the pointer was over the picture, and the tree is there
+  std::optional<RayHit> under = {};    // what it pointed at
 };
 struct PanelAction {
   bool changed = false;     // settings or view of the session

@@ -20,6 +20,7 @@ struct WalkOptions {
   std::string path_file;
   bool path = false, headless = false;
   int frames = 0;  // 0: until the window is closed
+  double radius = -1;  // as WindowOptions::radius
 };
 
 // The keys of --path: of the scene itself, or of the file that the option names.
@@ -79,6 +80,7 @@ int walk(const WalkOptions& options) {
   window.name = std::filesystem::path(options.frame.scene_path()).filename().string();
   window.width = first.width, window.height = first.height;
   window.play = options.path;
+  window.radius = options.radius;
   window.frames = [&options](const WalkJob& job) { return frames_of(options, job); };
   return walk_in_window(window, [&options](const LoadProgress& progress) { return load_walk(options, progress); });
 }
@@ -94,6 +96,9 @@ void add_walk(CLI::App& app, Run& run) {
                           ->expected(0, 1)->type_name("[F.toml]");
   command->add_option("--frames", options->frames, "End after N frames and print the median frame time")
       ->check(CLI::Range(1, kMaxFrames))->type_name("N");
+  command->add_option("--radius", options->radius,
+                      "How close walls let you come, world units (default: from the scene's size); 0: fly through them")
+      ->check(CLI::Range(0.0, 1e30))->type_name("R");
   command->add_flag("--headless", options->headless, "No window; with --path");
   command->callback([options, path, &run] {
     options->path = path->count() > 0;

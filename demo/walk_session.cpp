@@ -53,6 +53,8 @@ const std::vector<WalkSession::Key>& WalkSession::keys() {
                                         {"V", "visibility: raster or ray"},
                                         {"5", "view: color"},
                                         {"6 7 8 9 0", "depth, ids, normals, uv, materials"},
+                                        {"N", "walls stop you, or not"},
+                                        {"I", "print what is under the pointer"},
                                         {"C", "the scene's next camera"},
                                         {"L", "play or stop the scene's camera path"},
                                         {"P", "print the camera, for render --camera"},
@@ -85,6 +87,7 @@ bool WalkSession::press(const std::string& key, const Camera& now) {
   else if (key == "B") s.bump = !s.bump;
   else {
     if (key == "F12") save_picture();
+    if (key == "N") walls_ = !walls_;
     if (key == "P") std::printf("%s\n", short_camera_text(now, scene_).c_str()), std::fflush(stdout);
     return false;
   }

@@ -35,6 +35,7 @@ class WalkSession {
   View& view() { return view_; }              // of the next frame
   const ShownFrame& shown() const { return shown_; }
   double& speed() { return speed_; }          // world units a second
+  bool& walls() { return walls_; }            // they stop whoever walks
   const std::vector<double>& frame_ms() const { return frame_ms_; }
   const std::vector<StageTimes>& recent() const { return recent_; }  // times of the last frames, kRecentFrames at most
   const std::vector<PlanLine>& plan();                               // of the next frame
@@ -55,6 +56,7 @@ class WalkSession {
   std::vector<PlanLine> plan_;
   Settings plan_settings_;
   double speed_ = 1;
+  bool walls_ = true;
 };
 
 }  // namespace spanray::demo

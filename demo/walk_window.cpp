@@ -12,6 +12,7 @@
 #include "scene_loading.h"
 #include "speak.h"
 #include "stage_times.h"
+#include "visitor.h"
 #include "walk_session.h"
 #include "window.h"
 
@@ -64,13 +65,20 @@ class Walk {
         path_(job.path),
         frames_(options.frames(job)),
         session_(job.job),
+        surroundings_(job.job.scene),
+        radius_(options.radius > 0 ? options.radius : fitted_radius(job.job.scene, job.job.camera)),
         camera_(job.job.camera),
-        hint_(frames_ == 0) {}
+        hint_(frames_ == 0) {
+    session_.walls() = options.radius != 0;
+  }
   int run();
 
  private:
   bool handle(const Input& input);
   void fly(const Input& input);
+  void step(double right, double up, double forward);
+  bool point_at(std::optional<RayHit>& hit);
+  void print_pointed();
   void play();
   void jump(int camera);
   void follow_path(double seconds);
@@ -88,6 +96,9 @@ class Walk {
   std::vector<CameraKey> path_;
   int frames_;  // 0: until the window is closed
   WalkSession session_;
+  Surroundings surroundings_;
+  double radius_;           // of who walks
+  int pointer_x_ = -1, pointer_y_ = -1;  // where the pointer was over the picture last
   FlyCamera camera_;
   int camera_index_ = 0;
   bool panel_ = false, help_ = false, hint_, look_ = false;
@@ -124,19 +135,21 @@ int Walk::run() {
     }
   }
   if (frames_ > 0) report_frames(session_.frame_ms());
-  if (Result<bool> last = session_.take_frame(kPatienceMs); session_.busy()) leave_now();
+  if (Result<bool> last = session_.take_frame(kPatienceMs); session_.busy() || surroundings_.building()) leave_now();
   return kDone;
 }
 
 // False if the walk is over.
 bool Walk::handle(const Input& input) {
   if (wants_to_leave(input)) return false;
+  if (input.pointer_x >= 0) pointer_x_ = input.pointer_x, pointer_y_ = input.pointer_y;
   for (const std::string& key : input.pressed) {
     if (key == "M") window_.set_look(look_ = !look_);
     else if (key == "F2") panel_ = !panel_;
     else if (key == "C") jump((camera_index_ + 1) % static_cast<int>(session_.scene().cameras().size()));
     else if (key == "L") play();
     else if (key == "F1") show_help(!help_);
+    else if (key == "I") print_pointed();
     else if (session_.press(key, camera_.camera())) dirty_ = true;
   }
   if (!input.pressed.empty() || input.clicked || (shown_ > 0 && seconds_since(first_shown_) > kHintSeconds)) {
@@ -158,16 +171,52 @@ void Walk::fly(const Input& input) {
   // A long pause must not throw the camera out of the scene.
   const double seconds = std::min(seconds_since(tick_), 0.1);
   tick_ = Clock::now();
-  const double step = session_.speed() * (input.fast ? 4 : 1) * seconds;
+  const double way = session_.speed() * (input.fast ? 4 : 1) * seconds;
   moving_ = (input.move_right | input.move_up | input.move_forward) != 0;
   const bool turns = input.mouse_dx != 0 || input.mouse_dy != 0;
   if (moving_ || turns) playing_ = false;
   camera_.turn(input.mouse_dx, input.mouse_dy);
-  camera_.move(input.move_right * step, input.move_up * step, input.move_forward * step);
+  step(input.move_right * way, input.move_up * way, input.move_forward * way);
   dirty_ |= moving_ || turns;
   if (!playing_) return;
   follow_path(path_time_ + seconds);
   playing_ = path_time_ < path_length();
+}
+
+// Nobody walks before the tree is there, lest they walk through a wall.
+void Walk::step(double right, double up, double forward) {
+  if (!session_.walls()) return camera_.move(right, up, forward);
+  const SceneQuery* scene = surroundings_.query();
+  if (!moving_ || scene == nullptr) return;
+  FlyCamera moved = camera_;
+  moved.move(right, up, forward);
+  const auto eye = [](const FlyCamera& c) { return glm::dvec3(c.camera().eye[0], c.camera().eye[1], c.camera().eye[2]); };
+  const Result<Slide> slid = slide(*scene, eye(camera_), eye(moved) - eye(camera_), radius_);
+  if (!slid) {
+    message("walls no longer stop you: " + slid.error().to_string());
+    session_.walls() = false;
+    return;
+  }
+  camera_ = moved;
+  const glm::dvec3& place = slid.value().place;
+  if (slid.value().stopped) camera_.place({place.x, place.y, place.z});
+}
+
+// What the shown picture has where the pointer was last; false if that is not known.
+bool Walk::point_at(std::optional<RayHit>& hit) {
+  const ShownFrame& shown = session_.shown();
+  const SceneQuery* scene = surroundings_.query();
+  if (scene == nullptr || pointer_x_ < 0 || pointer_x_ >= shown.picture.width || pointer_y_ >= shown.picture.height) return false;
+  const auto found = scene->pixel(shown.order.camera, shown.picture.width, shown.picture.height, pointer_x_, pointer_y_);
+  if (found) hit = found.value();
+  return static_cast<bool>(found);
+}
+
+void Walk::print_pointed() {
+  std::optional<RayHit> hit;
+  if (!point_at(hit)) return message("nothing is known of what is under the pointer");
+  std::printf("%d,%d: %s\n", pointer_x_, pointer_y_, hit_text(hit, session_.shown().order.camera.eye).c_str());
+  std::fflush(stdout);
 }
 
 void Walk::play() {
@@ -197,7 +246,10 @@ Result<void> Walk::take_frame() {
   Result<bool> taken = session_.take_frame(session_.busy() ? kBusyWaitMs : 0);
   if (!taken) return taken.error();
   if (!taken.value()) return {};
-  if (shown_++ == 0) first_shown_ = Clock::now();
+  if (shown_++ == 0) {
+    first_shown_ = Clock::now();
+    if (frames_ == 0) surroundings_.prepare();
+  }
   new_picture_ = title_due_ = true;
   return window_.set_picture(session_.shown().picture);
 }
@@ -224,7 +276,9 @@ void Walk::draw_ui() {
   if (first_frame_is_late()) return draw_progress(options_.name, "making the first frame", -1, seconds_since(start_));
   const bool panel = panel_ && !(help_ && !help_fits_beside_panel());
   if (panel) {
-    const PanelAction action = draw_panel(session_, {camera_.camera(), path_, playing_, path_time_});
+    PanelInput input{camera_.camera(), path_, playing_, path_time_};
+    input.pointed = point_at(input.under);
+    const PanelAction action = draw_panel(session_, input);
     dirty_ |= action.changed;
     if (action.camera >= 0) jump(action.camera);
     if (action.play) play();

@@ -18,6 +18,7 @@ struct WindowOptions {
   std::string name;                  // of the scene, for its user
   int width = 1280, height = 720;    // of the window, before the scene says something else
   bool play = false;                 // the frames lie evenly on the path
+  double radius = -1;                // of who walks, world units; 0: walls stop nobody until N; less: from the scene's size
   std::function<int(const WalkJob&)> frames;  // how many to show; 0: until the window is closed
 };
 

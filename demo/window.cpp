@@ -171,6 +171,11 @@ Input Window::wait(int wait_ms) {
     SDL_Delay(kPollMs);
   }
   input.look = impl_->look();
+  if (!input.look && SDL_GetMouseFocus() == impl_->window) {
+    int x = 0, y = 0;
+    SDL_GetMouseState(&x, &y);
+    if (!impl_->ui->covers(x, y)) input.pointer_x = x, input.pointer_y = y;
+  }
   if (impl_->ui->holds_input()) return input;
   const Uint8* held = SDL_GetKeyboardState(nullptr);
   const auto axis = [held](SDL_Scancode plus, SDL_Scancode minus) { return int{held[plus]} - int{held[minus]}; };

@@ -20,6 +20,8 @@ struct Input {
   double mouse_dx = 0, mouse_dy = 0;  // pixels, only counted while look is true
   int move_right = 0, move_up = 0, move_forward = 0;  // -1, 0, 1: keys held down
   bool fast = false;                                  // Shift is held down
+  // Pixels from the upper left; -1 if it is not over the picture: outside, over the user interface, or hidden.
+  int pointer_x = -1, pointer_y = -1;
   int wheel = 0;                                      // notches, away from the user is positive; outside of the user interface
   std::vector<std::string> pressed;  // names of keys that went down, without repeats: "1", "H", "F12", "Escape", ...
 };

@@ -182,7 +182,7 @@ TEST_F(WalkPanel, HelpStaysBesideThePanelWhichLeavesThePictureInSight) {
     EXPECT_TRUE(until([&] { return equal_colors(panel, screen_->grab(window_)); })) << size_;
     // Below its stages the panel has headers that open and scroll.
     if (height == 360) {
-      click(60, 280);
+      click(60, 338);
       const Image unfolded = settled(panel);
       ASSERT_TRUE(screen_->input({"click", "--repeat", "9", "5"}));
       EXPECT_LE(differing(picture, settled(unfolded)).right, width * 2 / 5);

@@ -72,10 +72,11 @@ class WalkDisplay : public ::testing::Test {
     point(x, y);
     ASSERT_TRUE(screen_->input({"click", "1"}));
   }
-  // The camera that P prints next.
-  std::string printed_camera() {
+  // The line that a key prints next: P the camera, I what is under the pointer.
+  std::string printed_camera() { return printed("p"); }
+  std::string printed(const std::string& name) {
     const size_t before = walk_->out().size();
-    key("p");
+    key(name);
     std::string all;
     EXPECT_TRUE(until([&] { return (all = walk_->out()).size() > before && all.back() == '\n'; }));
     return all.empty() ? "" : all.substr(before, all.size() - before - 1);
