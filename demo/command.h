@@ -22,6 +22,7 @@ void add_info(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_why(CLI::App& app, Run& run);
 void add_reference(CLI::App& app, Run& run);
+void add_report(CLI::App& app, Run& run);
 void add_walk(CLI::App& app, Run& run);
 // Commands of the design that this version lacks: they say so and end with exit 2.
 void add_missing(CLI::App& app, Run& run);

@@ -52,10 +52,11 @@ int run_program(int argc, char** argv) {
   add_info(app, run);
   add_why(app, run);
   add_reference(app, run);
+  add_report(app, run);
   add_missing(app, run);
   try {
     app.parse(argc, argv);
-    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info, why or reference");
+    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info, why, reference or report");
     const int code = run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("cannot write to standard output");
     return code;

@@ -8,8 +8,9 @@ namespace spanray::demo {
 class ProgressLine {
  public:
   explicit ProgressLine(std::string what);
-  // fraction: 0 to 1, not falling.
-  void show(double fraction);
+  // fraction: 0 to 1, not falling within a part.
+  void show(double fraction) { show("", fraction); }
+  void show(const std::string& part, double fraction);
   // Before anything else is said.
   void clear();
 
@@ -17,7 +18,8 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
   const std::string what_;
   const bool terminal_;
-  const Clock::time_point start_;
+  std::string part_;
+  Clock::time_point start_;  // of the part
   Clock::time_point shown_;
 };
 

@@ -24,12 +24,15 @@ TEST(ProgramReference, WritesPictureAndRadianceOfTheSameThing) {
     EXPECT_EQ("", ran.out);
   }
   EXPECT_EQ(0, run_program({"compare", "a.pfm", "a.png"}, folder.path()).code);
-  EXPECT_EQ(0, run_program({"render", scene, "--size", "60x40", "--camera", kSmallSceneCamera, "--out", "f.png"}, folder.path()).code);
+  EXPECT_EQ(
+      0,
+      run_program({"render", scene, "--size", "60x40", "--camera", kSmallSceneCamera, "--out", "f.png"}, folder.path()).code);
   const Ran compared = run_program({"compare", "a.png", "f.png", "--max-error", "p99.9=1"}, folder.path());
   EXPECT_EQ(0, compared.code) << compared.out << compared.error;
   EXPECT_EQ(0, run({"--out", "g.png", "--grid", "3"}).code);
   EXPECT_EQ(1, run_program({"compare", "a.png", "g.png"}, folder.path()).code) << "anti-aliased";
-  for (const auto& wrong : {std::vector<std::string>{}, {"--out", "a.jpg"}, {"--out", "a.png", "--grid", "0"}, {"--out", "a.png", "--grid", "65"}})
+  for (const auto& wrong :
+       {std::vector<std::string>{}, {"--out", "a.jpg"}, {"--out", "a.png", "--grid", "0"}, {"--out", "a.png", "--grid", "65"}})
     EXPECT_EQ(2, run(wrong).code);
   EXPECT_EQ(1, run({"--out", "no/a.png"}).code);
   EXPECT_EQ(1, run_program({"reference", "missing.obj", "--out", "a.png"}, folder.path()).code);

@@ -61,7 +61,8 @@ TEST_F(ReferenceAnalytic, LambertAndTheInverseSquare) {
 
 TEST_F(ReferenceAnalytic, DirectionalLightAndAttenuationByItsPolynomial) {
   load("newmtl m\nKd 0.5 0.5 0.5\nillum 1\n", kFloor,
-       "ambient = [0.0, 0.0, 0.0]\n[[light]]\nkind = \"directional\"\ndirection = [3.0, -4.0, 0.0]\nintensity = [2.0, 2.0, 2.0]\n");
+       "ambient = [0.0, 0.0, 0.0]\n[[light]]\nkind = \"directional\"\ndirection = [3.0, -4.0, 0.0]\nintensity = [2.0, 2.0, "
+       "2.0]\n");
   EXPECT_NEAR(look(1, 3, 1, 0, 0, 0), 0.5 / kPi * 2 * 0.8, 1e-6);
   load("newmtl m\nKd 0.5 0.5 0.5\nillum 1\n", kFloor, lamp(2, "[0.5, 0.25, 0.125]"));
   EXPECT_NEAR(look(1, 3, 1, 0, 0, 0), 0.5 / kPi * 3 / (0.5 + 0.25 * 2 + 0.125 * 4), 1e-6);
@@ -91,9 +92,11 @@ const char* const kBox =
     "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nusemtl m\n"
     "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\n";
 
-// A furnace: in a closed box of glowing mirrors every ray gathers a geometric series, whatever way it takes. The lamp is outside.
+// A furnace: in a closed box of glowing mirrors every ray gathers a geometric series, whatever way it takes. The lamp is
+// outside.
 TEST_F(ReferenceAnalytic, AFurnaceOfMirrorsGivesTheGeometricSeries) {
-  load("newmtl m\nKd 0 0 0\nKa 0 0 0\nKs 0.5 0.5 0.5\nKe 0.25 0.25 0.25\nillum 3\n", kBox, "background = [9.0, 9.0, 9.0]\n" + lamp(3));
+  load("newmtl m\nKd 0 0 0\nKa 0 0 0\nKs 0.5 0.5 0.5\nKe 0.25 0.25 0.25\nillum 3\n", kBox,
+       "background = [9.0, 9.0, 9.0]\n" + lamp(3));
   for (const int bounces : {0, 1, 2, 5, 20}) {
     settings_.max_bounces = bounces;
     const double want = 0.25 * (1 - std::pow(0.5, bounces + 1)) / 0.5;
@@ -109,22 +112,28 @@ TEST_F(ReferenceAnalytic, AmbientLightIsReflectedAsItIs) {
   load("newmtl m\nKd 0.3 0.3 0.3\nKa 0.5 0.5 0.5\nillum 1\n", kBox, lamp(3));
   EXPECT_EQ(look(0, 0, 0, 1, 0.2, 0.1), 0);
   std::string toml = lamp(3);
-  load("newmtl m\nKd 0.3 0.3 0.3\nKa 0.5 0.5 0.5\nillum 1\n", kBox, toml.replace(toml.find("0.0, 0.0, 0.0"), 13, "0.8, 0.8, 0.8"));
+  load("newmtl m\nKd 0.3 0.3 0.3\nKa 0.5 0.5 0.5\nillum 1\n", kBox,
+       toml.replace(toml.find("0.0, 0.0, 0.0"), 13, "0.8, 0.8, 0.8"));
   EXPECT_NEAR(look(0, 0, 0, 1, 0.2, 0.1), 0.4, 1e-7);
 }
 
 TEST_F(ReferenceAnalytic, AMirrorSeesWhatStandsBeforeIt) {
   const std::string wall = "v 5 -9 -9\nv 5 9 -9\nv 5 9 9\nv 5 -9 9\nusemtl glow\nf 5 6 7 8\n";
-  load("newmtl m\nKd 0 0 0\nKa 0 0 0\nKs 0.8 0.8 0.8\nillum 3\nnewmtl glow\nKd 0 0 0\nKa 0 0 0\nKe 0.5 0.5 0.5\nillum 1\n", kFloor + wall,
-       "ambient = [0.0, 0.0, 0.0]\nbackground = [0.125, 0.125, 0.125]\n[[light]]\nkind = \"point\"\nposition = [0.0, -5.0, 0.0]\nintensity = [1.0, 1.0, 1.0]\n");
+  load("newmtl m\nKd 0 0 0\nKa 0 0 0\nKs 0.8 0.8 0.8\nillum 3\nnewmtl glow\nKd 0 0 0\nKa 0 0 0\nKe 0.5 0.5 0.5\nillum 1\n",
+       kFloor + wall,
+       "ambient = [0.0, 0.0, 0.0]\nbackground = [0.125, 0.125, 0.125]\n[[light]]\nkind = \"point\"\nposition = [0.0, -5.0, "
+       "0.0]\nintensity = [1.0, 1.0, 1.0]\n");
   EXPECT_NEAR(look(-3, 3, 0, 0, 0, 0), 0.8 * 0.5, 1e-6) << "reflected to (5, 5, 0)";
   EXPECT_NEAR(look(3, 3, 0, 0, 0, 0), 0.8 * 0.125, 1e-6) << "reflected away from the wall";
 }
 
 TEST_F(ReferenceAnalytic, LayersBlendInOrderOfDepth) {
-  const std::string panes = "v -9 -9 1\nv 9 -9 1\nv 0 9 1\nv -9 -9 2\nv 9 -9 2\nv 0 9 2\nusemtl near\nf 1 2 3\nusemtl far\nf 4 5 6\n";
-  load("newmtl near\nKd 0 0 0\nKa 0 0 0\nKe 1 1 1\nd 0.25\nillum 2\nnewmtl far\nKd 0 0 0\nKa 0 0 0\nKe 0.5 0.5 0.5\nd 0.5\nillum 2\n", panes,
-       "ambient = [0.0, 0.0, 0.0]\nbackground = [0.125, 0.125, 0.125]\n");
+  const std::string panes =
+      "v -9 -9 1\nv 9 -9 1\nv 0 9 1\nv -9 -9 2\nv 9 -9 2\nv 0 9 2\nusemtl near\nf 1 2 3\nusemtl far\nf 4 5 6\n";
+  load(
+      "newmtl near\nKd 0 0 0\nKa 0 0 0\nKe 1 1 1\nd 0.25\nillum 2\nnewmtl far\nKd 0 0 0\nKa 0 0 0\nKe 0.5 0.5 0.5\nd "
+      "0.5\nillum 2\n",
+      panes, "ambient = [0.0, 0.0, 0.0]\nbackground = [0.125, 0.125, 0.125]\n");
   EXPECT_NEAR(look(0, 0, 0, 0, 0, 3), 0.25 * 1 + 0.75 * (0.5 * 0.5 + 0.5 * 0.125), 1e-6);
   EXPECT_NEAR(look(0, 0, 3, 0, 0, 0), 0.5 * 0.5 + 0.5 * (0.25 * 1 + 0.75 * 0.125), 1e-6) << "from the other side";
   settings_.transparency = Transparency::kNone;

@@ -73,13 +73,18 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"columns, flat", "columns", [](Settings& s) { s.shading = Shading::kFlat; }, 0.002, 0.0002, 0.96},
         Case{"columns, bilinear", "columns", [](Settings& s) { s.filter = Filter::kBilinear; }, 0.002, 0.01, 0.97},
         Case{"columns, nearest", "columns", [](Settings& s) { s.filter = Filter::kNearest; }, 0.002, 0.01, 0.97},
-        Case{"glass, screen-door", "glass", [](Settings& s) { s.transparency = Transparency::kScreenDoor; }, 0.002, 0.0002, 0.96},
+        Case{"glass, screen-door", "glass", [](Settings& s) { s.transparency = Transparency::kScreenDoor; }, 0.002, 0.0002,
+             0.96},
         Case{"gauze, blended", "gauze", [](Settings& s) { s.transparency = Transparency::kAlpha; }, 0.002, 0.0005, 0.96},
         Case{"glass, opaque", "glass", [](Settings& s) { s.transparency = Transparency::kNone; }, 0.002, 0.0002, 0.96},
-        Case{"columns, 4 samples", "columns", [](Settings& s) { s.samples = 4, s.antialiasing = Antialiasing::kSupersample; }, 0, 0.003, 0.98},
-        Case{"gauze, 8 samples", "gauze", [](Settings& s) { s.samples = 8, s.antialiasing = Antialiasing::kSupersample; }, 0, 0.003, 0.98},
-        Case{"spheres, culled, one bounce", "spheres", [](Settings& s) { s.culling = Culling::kBack, s.max_bounces = 1; }, 0.002, 0.0002, 0.96},
-        Case{"hall, plain", "hall", [](Settings& s) { s.textures = s.bump = false, s.shadows = Shadows::kNone; }, 0.002, 0.0002, 0.97}));
+        Case{"columns, 4 samples", "columns", [](Settings& s) { s.samples = 4, s.antialiasing = Antialiasing::kSupersample; },
+             0, 0.003, 0.98},
+        Case{"gauze, 8 samples", "gauze", [](Settings& s) { s.samples = 8, s.antialiasing = Antialiasing::kSupersample; }, 0,
+             0.003, 0.98},
+        Case{"spheres, culled, one bounce", "spheres", [](Settings& s) { s.culling = Culling::kBack, s.max_bounces = 1; },
+             0.002, 0.0002, 0.96},
+        Case{"hall, plain", "hall", [](Settings& s) { s.textures = s.bump = false, s.shadows = Shadows::kNone; }, 0.002, 0.0002,
+             0.97}));
 
 // Threads change nothing; progress ends at 1.
 TEST(ReferenceScenes, ThreadsChangeNothing) {

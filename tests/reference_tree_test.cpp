@@ -22,7 +22,8 @@ struct Soup {
       Triangle made{};
       for (int k = 0; k < 3; ++k) {
         made.vertex[k] = static_cast<uint32_t>(scene.vertices.size());
-        scene.vertices.push_back(Vertex{{t.corner[k].position[0], t.corner[k].position[1], t.corner[k].position[2]}, {0, 0, 1}, {0, 0}});
+        scene.vertices.push_back(
+            Vertex{{t.corner[k].position[0], t.corner[k].position[1], t.corner[k].position[2]}, {0, 0, 1}, {0, 0}});
       }
       scene.triangles.push_back(made);
     }
@@ -52,11 +53,14 @@ void expect_same_answers(const Soup& soup, TestRandom& random, int rays, double 
     Line line{random_point(random, size), random_point(random, 1)};
     if (i % 7 == 0) line.direction[i % 3] = 0;  // along a plane of the axes
     if (i % 11 == 0) line.direction = glm::dvec3(0), line.direction[i % 3] = i % 2 == 0 ? 1 : -1;
-    if (i % 5 == 0) line.direction = scene_vertex(soup.scene, static_cast<uint32_t>(random.below(static_cast<int>(soup.all.size()))), i % 3) - line.origin;
+    if (i % 5 == 0)
+      line.direction =
+          scene_vertex(soup.scene, static_cast<uint32_t>(random.below(static_cast<int>(soup.all.size()))), i % 3) - line.origin;
     const double t_min = i % 3 == 0 ? 0.3 : 0, t_max = i % 4 == 0 ? 1.0 : std::numeric_limits<double>::infinity();
     std::vector<Met> want = soup.ask_all(line, t_min, t_max), got = tree.all(line, t_min, t_max, yes);
     std::sort(want.begin(), want.end(), before), std::sort(got.begin(), got.end(), before);
-    ASSERT_TRUE(std::equal(want.begin(), want.end(), got.begin(), got.end(), same)) << i << ": " << want.size() << " and " << got.size();
+    ASSERT_TRUE(std::equal(want.begin(), want.end(), got.begin(), got.end(), same))
+        << i << ": " << want.size() << " and " << got.size();
     const Met closest = tree.closest(line, t_min, t_max, yes), closest_odd = tree.closest(line, t_min, t_max, odd);
     EXPECT_TRUE(same(closest, want.empty() ? Met{} : want[0])) << i;
     const auto first_odd = std::find_if(want.begin(), want.end(), [](const Met& m) { return m.primitive % 2 == 1; });

@@ -24,9 +24,12 @@ Kernel gaussian(int radius, double pixels_per_degree, double b) {
 
 }  // namespace
 
-// Table 1 of the paper. In the picture's plane a term is a sqrt(pi / b) exp(-pi^2 r^2 / b); all kernels have the radius of the widest.
+// Table 1 of the paper. In the picture's plane a term is a sqrt(pi / b) exp(-pi^2 r^2 / b); all kernels have the radius of the
+// widest.
 Sensitivity contrast_sensitivity(Channel channel, double pixels_per_degree) {
-  struct Term { double a, b; };
+  struct Term {
+    double a, b;
+  };
   constexpr Term kTerms[3][2] = {{{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
   const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * kPi * kPi)) * pixels_per_degree));
   const Term* const terms = kTerms[static_cast<int>(channel)];
@@ -36,7 +39,8 @@ Sensitivity contrast_sensitivity(Channel channel, double pixels_per_degree) {
   for (int i = 0; i < s.terms; ++i) {
     s.kernel[i] = gaussian(radius, pixels_per_degree, terms[i].b);
     double sum = 0;
-    for (int j = -radius; j <= radius; ++j) sum += std::exp(-kPi * kPi * j * j / (pixels_per_degree * pixels_per_degree * terms[i].b));
+    for (int j = -radius; j <= radius; ++j)
+      sum += std::exp(-kPi * kPi * j * j / (pixels_per_degree * pixels_per_degree * terms[i].b));
     s.share[i] = terms[i].a * std::sqrt(kPi / terms[i].b) * sum * sum;
     whole += s.share[i];
   }
@@ -124,7 +128,8 @@ struct Kernels {
   explicit Kernels(double ppd)
       : csf{contrast_sensitivity(Channel::kAchromatic, ppd), contrast_sensitivity(Channel::kRedGreen, ppd),
             contrast_sensitivity(Channel::kBlueYellow, ppd)},
-        features(feature_kernels(ppd)), margin(std::max(csf[0].kernel[0].radius, features.smooth.radius)) {}
+        features(feature_kernels(ppd)),
+        margin(std::max(csf[0].kernel[0].radius, features.smooth.radius)) {}
 };
 
 // What a band of one picture gives, row by row of the band: filtered colors, and the strength of edges and points.
@@ -138,8 +143,8 @@ Seen look_at(const PictureView& picture, int y0, int y1, const Kernels& kernels)
   Plane channel[3] = {Plane(width, rows), Plane(width, rows), Plane(width, rows)};
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < width; ++x) {
-      const Color3 c = ycxcz_from_xyz(xyz_from_rgb(picture.shown(std::clamp(x - margin, 0, picture.width - 1),
-                                                                 std::clamp(y0 + y - margin, 0, picture.height - 1))));
+      const Color3 c = ycxcz_from_xyz(xyz_from_rgb(
+          picture.shown(std::clamp(x - margin, 0, picture.width - 1), std::clamp(y0 + y - margin, 0, picture.height - 1))));
       channel[0].row(y)[x] = c.x, channel[1].row(y)[x] = c.y, channel[2].row(y)[x] = c.z;
     }
   Plane luminance = channel[0];
@@ -190,7 +195,8 @@ std::vector<float> flip_map(const PictureView& a, const PictureView& b, Parallel
     for (size_t i = 0; i < p.lab.size(); ++i) {
       const double color = flip::color_error(flip::hyab(p.lab[i], q.lab[i]));
       // 4.2: half the power, so that a small difference of features counts.
-      const double feature = std::sqrt(std::max(std::fabs(p.edge[i] - q.edge[i]), std::fabs(p.point[i] - q.point[i])) * std::sqrt(0.5));
+      const double feature =
+          std::sqrt(std::max(std::fabs(p.edge[i] - q.edge[i]), std::fabs(p.point[i] - q.point[i])) * std::sqrt(0.5));
       map[static_cast<size_t>(y0) * width + i] = static_cast<float>(std::pow(color, 1 - std::min(feature, 1.0)));  // 4.3
     }
   });

@@ -26,18 +26,21 @@ double luma(const Color3& c) { return 0.299 * c.x + 0.587 * c.y + 0.114 * c.z; }
 double similarity(const double (&m)[kMoments]) {
   constexpr double kC1 = (0.01 * 255) * (0.01 * 255), kC2 = (0.03 * 255) * (0.03 * 255);
   const double variance_a = m[2] - m[0] * m[0], variance_b = m[3] - m[1] * m[1], covariance = m[4] - m[0] * m[1];
-  return (2 * m[0] * m[1] + kC1) * (2 * covariance + kC2) / ((m[0] * m[0] + m[1] * m[1] + kC1) * (variance_a + variance_b + kC2));
+  return (2 * m[0] * m[1] + kC1) * (2 * covariance + kC2) /
+         ((m[0] * m[0] + m[1] * m[1] + kC1) * (variance_a + variance_b + kC2));
 }
 
 }  // namespace
 
 double mean_ssim(const PictureView& a, const PictureView& b, Parallel& parallel) {
-  const std::vector<double> across = window_weights(std::min(kWindow, a.width)), down = window_weights(std::min(kWindow, a.height));
+  const std::vector<double> across = window_weights(std::min(kWindow, a.width)),
+                            down = window_weights(std::min(kWindow, a.height));
   const int columns = a.width - static_cast<int>(across.size()) + 1, rows = a.height - static_cast<int>(down.size()) + 1;
   const size_t width = static_cast<size_t>(columns);
   std::vector<double> sum_of_row(static_cast<size_t>(rows));
   parallel.for_each(static_cast<size_t>((rows + kBandRows - 1) / kBandRows), [&](size_t band, int) {
-    const int y0 = static_cast<int>(band) * kBandRows, y1 = std::min(y0 + kBandRows, rows), source_rows = y1 - y0 + static_cast<int>(down.size()) - 1;
+    const int y0 = static_cast<int>(band) * kBandRows, y1 = std::min(y0 + kBandRows, rows),
+              source_rows = y1 - y0 + static_cast<int>(down.size()) - 1;
     // Means of a, b, a a, b b and a b along each row, then down.
     std::vector<double> moment(static_cast<size_t>(source_rows) * width * kMoments);
     std::vector<double> value_a(static_cast<size_t>(a.width)), value_b(value_a.size());
@@ -56,7 +59,8 @@ double mean_ssim(const PictureView& a, const PictureView& b, Parallel& parallel)
       for (size_t x = 0; x < width; ++x) {
         double m[kMoments] = {};
         for (size_t j = 0; j < down.size(); ++j)
-          for (size_t k = 0; k < kMoments; ++k) m[k] += down[j] * moment[((static_cast<size_t>(y - y0) + j) * width + x) * kMoments + k];
+          for (size_t k = 0; k < kMoments; ++k)
+            m[k] += down[j] * moment[((static_cast<size_t>(y - y0) + j) * width + x) * kMoments + k];
         sum_of_row[static_cast<size_t>(y)] += similarity(m);
       }
   });

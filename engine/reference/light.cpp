@@ -9,10 +9,13 @@ namespace {
 
 glm::dvec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
 
-constexpr int32_t kBlinnPhong = 0;  // the catalog's reflectance index of the MTL model; the only other one of its own is Lambert
+constexpr int32_t kBlinnPhong =
+    0;  // the catalog's reflectance index of the MTL model; the only other one of its own is Lambert
 
 // Reflectance times cosine, 1/sr: to be multiplied by Kd and by Ks.
-struct Reflectance { double diffuse = 0, specular = 0; };
+struct Reflectance {
+  double diffuse = 0, specular = 0;
+};
 
 // Lambert 1760; Blinn 1977, with the whole divided by pi. n_l must be positive.
 Reflectance reflectance(int32_t model, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v, double shininess) {
@@ -39,8 +42,8 @@ glm::dvec3 flat(const SceneData& scene, const Surface& s, int32_t model, const L
   return colored(s, light, r, in.irradiance);
 }
 
-// At the corners, interpolated (Gouraud 1971). A corner counts on the side of its normal that the light is on; the three normals together
-// decide which side is seen. Textures stay per pixel; the exponent is the material's own.
+// At the corners, interpolated (Gouraud 1971). A corner counts on the side of its normal that the light is on; the three
+// normals together decide which side is seen. Textures stay per pixel; the exponent is the material's own.
 glm::dvec3 gouraud(const SceneData& scene, const Surface& s, const Material& m, const Light& light, const glm::dvec3& viewer) {
   Reflectance sum;
   glm::dvec3 normals(0);
@@ -51,7 +54,8 @@ glm::dvec3 gouraud(const SceneData& scene, const Surface& s, const Material& m, 
     const glm::dvec3 position = vec(corner.position), normal = vec(corner.normal) * side;
     const Incidence in = incidence(light, position);
     if (!(dot3(normal, in.direction) > 0)) continue;
-    const Reflectance r = reflectance(m.reflectance, normal, in.direction, normalize3(viewer - position, glm::dvec3(0)), m.shininess);
+    const Reflectance r =
+        reflectance(m.reflectance, normal, in.direction, normalize3(viewer - position, glm::dvec3(0)), m.shininess);
     sum.diffuse += s.weight[k] * r.diffuse * in.irradiance, sum.specular += s.weight[k] * r.specular * in.irradiance;
   }
   return colored(s, light, sum, 1);
@@ -77,7 +81,9 @@ Way way_to(const Light& light, const glm::dvec3& origin) {
   return {{origin, vec(light.position) - origin}, 1 - 0x1p-16};
 }
 
-glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s) { return s.ambient * vec(scene.ambient_radiance) + s.emission; }
+glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s) {
+  return s.ambient * vec(scene.ambient_radiance) + s.emission;
+}
 
 bool faces(const Surface& s, const Light& light) { return dot3(s.geometric, incidence(light, s.position).direction) > 0; }
 

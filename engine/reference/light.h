@@ -5,14 +5,20 @@
 namespace spanray::reference {
 
 // Light that arrives at a point: the unit vector toward it (zero: none), and W/m^2 on a surface that faces it, for intensity 1.
-struct Incidence { glm::dvec3 direction{0}; double irradiance = 0; };
+struct Incidence {
+  glm::dvec3 direction{0};
+  double irradiance = 0;
+};
 Incidence incidence(const Light& light, const glm::dvec3& position);
 
 // Where rays from a surface start.
 glm::dvec3 start_above(const Surface& s);
 
 // The segment that must be free for the light to reach a point: origin + t * direction, 0 < t <= t_max.
-struct Way { Line line; double t_max = 0; };
+struct Way {
+  Line line;
+  double t_max = 0;
+};
 Way way_to(const Light& light, const glm::dvec3& origin);
 
 // Ambient light and emission.

@@ -54,13 +54,21 @@ Places make_places(const Settings& settings, int grid) {
 }
 
 // Derivative of a unit direction d = D / length by that of D.
-glm::dvec3 of_unit(const glm::dvec3& d, double length, const glm::dvec3& derivative) { return (derivative - d * dot3(d, derivative)) * (1 / length); }
+glm::dvec3 of_unit(const glm::dvec3& d, double length, const glm::dvec3& derivative) {
+  return (derivative - d * dot3(d, derivative)) * (1 / length);
+}
 
 class Renderer {
  public:
   Renderer(const SceneData& scene, const Camera& camera, const Settings& settings, int grid)
-      : scene_(scene), settings_(settings), view_(camera, settings.width, settings.height), places_(make_places(settings, grid)),
-        surfaces_(scene, settings), opaque_(scene, primitives(false)), blended_(scene, primitives(true)), lights_(scene.lights) {
+      : scene_(scene),
+        settings_(settings),
+        view_(camera, settings.width, settings.height),
+        places_(make_places(settings, grid)),
+        surfaces_(scene, settings),
+        opaque_(scene, primitives(false)),
+        blended_(scene, primitives(true)),
+        lights_(scene.lights) {
     if (scene.light_follows_eye) lights_.assign(1, default_light(scene, camera));
   }
   // What a ray's walk through a tree asks of each hit.
@@ -119,7 +127,8 @@ class Renderer {
   double blend(const Ray& ray, double t_min, double t_max, glm::dvec3& color) const {
     if (blended_.empty()) return 1;
     std::vector<Met> layers = blended_.all(ray.line, t_min, t_max, stop(ray));
-    std::sort(layers.begin(), layers.end(), [](const Met& a, const Met& b) { return a.t != b.t ? a.t > b.t : a.primitive > b.primitive; });
+    std::sort(layers.begin(), layers.end(),
+              [](const Met& a, const Met& b) { return a.t != b.t ? a.t > b.t : a.primitive > b.primitive; });
     double through = 1;
     for (const Met& met : layers) {
       const Surface s = surfaces_.at(ray, met.primitive);
@@ -174,7 +183,8 @@ Result<void> check(const SceneData& scene, const Settings& settings, int grid) {
   constexpr int kMaxSide = 16384, kMaxGrid = 64;
   if (settings.width < 1 || settings.height < 1 || settings.width > kMaxSide || settings.height > kMaxSide)
     return Error{"reference: a picture has 1 to 16384 pixels a side"};
-  if (!sample_count_ok(settings.samples) || grid < 0 || grid > kMaxGrid) return Error{"reference: that number of samples is not possible"};
+  if (!sample_count_ok(settings.samples) || grid < 0 || grid > kMaxGrid)
+    return Error{"reference: that number of samples is not possible"};
   for (size_t i = 0; i < scene.materials.size(); ++i)
     if (const int model = scene.materials[i].reflectance; model != kBlinnPhong && model != kLambert)
       return Error{"reference: material " + scene.material_names[i] + " has a reflectance that the reference does not model"};
@@ -187,8 +197,8 @@ Result<void> check(const SceneData& scene, const Settings& settings, int grid) {
 }  // namespace
 }  // namespace reference
 
-Result<void> render_reference(const Scene& scene, const Camera& camera, const Settings& settings, const ReferenceOptions& options,
-                              Framebuffer& out) {
+Result<void> render_reference(const Scene& scene, const Camera& camera, const Settings& settings,
+                              const ReferenceOptions& options, Framebuffer& out) {
   if (!scene.valid()) return Error{"reference: there is no scene"};
   if (Result<void> checked = reference::check(scene.data(), settings, options.grid); !checked) return checked;
   const reference::Renderer renderer(scene.data(), camera, settings, options.grid);
@@ -196,12 +206,14 @@ Result<void> render_reference(const Scene& scene, const Camera& camera, const Se
   out = {};
   out.color.width = settings.width, out.color.height = settings.height;
   out.color.rgba.assign(4 * pixels, 255), out.radiance.resize(3 * pixels), out.primitive.resize(pixels);
-  const int columns = (settings.width + reference::kBlock - 1) / reference::kBlock, rows = (settings.height + reference::kBlock - 1) / reference::kBlock;
+  const int columns = (settings.width + reference::kBlock - 1) / reference::kBlock,
+            rows = (settings.height + reference::kBlock - 1) / reference::kBlock;
   std::mutex mutex;
   int done = 0;
   Parallel parallel(options.threads);
   parallel.for_each(static_cast<size_t>(columns) * static_cast<size_t>(rows), [&](size_t block, int) {
-    const int x0 = static_cast<int>(block) % columns * reference::kBlock, y0 = static_cast<int>(block) / columns * reference::kBlock;
+    const int x0 = static_cast<int>(block) % columns * reference::kBlock,
+              y0 = static_cast<int>(block) / columns * reference::kBlock;
     for (int y = y0; y < std::min(y0 + reference::kBlock, settings.height); ++y)
       for (int x = x0; x < std::min(x0 + reference::kBlock, settings.width); ++x) {
         const size_t i = static_cast<size_t>(y) * width + static_cast<size_t>(x);

@@ -28,8 +28,8 @@ Role role_of(const Material& m, const Settings& settings) {
   const bool cut = m.map_opacity >= 0, thin = m.opacity < 1;
   if (!cut && !thin) return Role::kOpaque;
   const auto wish = static_cast<MaterialTransparency>(m.transparency);
-  const Role own = wish == MaterialTransparency::kMask    ? Role::kMask
-                   : wish == MaterialTransparency::kAlpha ? Role::kBlended
+  const Role own = wish == MaterialTransparency::kMask         ? Role::kMask
+                   : wish == MaterialTransparency::kAlpha      ? Role::kBlended
                    : wish == MaterialTransparency::kScreenDoor ? Role::kScreenDoor
                                                                : Role::kOpaque;
   const bool translucent = thin || own == Role::kBlended || own == Role::kScreenDoor;
@@ -39,7 +39,8 @@ Role role_of(const Material& m, const Settings& settings) {
   return own;
 }
 
-Surfaces::Surfaces(const SceneData& scene, const Settings& settings) : scene_(scene), settings_(settings), textures_(scene, settings.filter) {
+Surfaces::Surfaces(const SceneData& scene, const Settings& settings)
+    : scene_(scene), settings_(settings), textures_(scene, settings.filter) {
   for (const Material& m : scene.materials) role_.push_back(role_of(m, settings));
 }
 
@@ -57,8 +58,8 @@ struct Surfaces::Point {
   Coordinates uv;
 };
 
-// o + t d = v0 + b1 edge1 + b2 edge2, by Cramer's rule; derivatives by differentiating it: the tip moves with the footprint, then back
-// along the ray onto the plane (Igehy 1999, 10 to 12).
+// o + t d = v0 + b1 edge1 + b2 edge2, by Cramer's rule; derivatives by differentiating it: the tip moves with the footprint,
+// then back along the ray onto the plane (Igehy 1999, 10 to 12).
 Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
   const Triangle& triangle = scene_.triangles[primitive];
   Point p;
@@ -80,7 +81,8 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
 
   const float *c0 = scene_.vertices[triangle.vertex[0]].uv, *c1 = scene_.vertices[triangle.vertex[1]].uv,
               *c2 = scene_.vertices[triangle.vertex[2]].uv;
-  p.du[0] = double{c1[0]} - c0[0], p.du[1] = double{c2[0]} - c0[0], p.dv[0] = double{c1[1]} - c0[1], p.dv[1] = double{c2[1]} - c0[1];
+  p.du[0] = double{c1[0]} - c0[0], p.du[1] = double{c2[0]} - c0[0], p.dv[0] = double{c1[1]} - c0[1],
+  p.dv[1] = double{c2[1]} - c0[1];
   p.uv.u = c0[0] + p.weight[1] * p.du[0] + p.weight[2] * p.du[1];
   p.uv.v = c0[1] + p.weight[1] * p.dv[0] + p.weight[2] * p.dv[1];
   // Weights of a step within the plane.
@@ -97,7 +99,8 @@ bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
   const Triangle& triangle = scene_.triangles[primitive];
   if (settings_.culling == Culling::kBack) {
     const glm::dvec3 v0 = vec(scene_.vertices[triangle.vertex[0]].position);
-    const glm::dvec3 n = cross3(vec(scene_.vertices[triangle.vertex[1]].position) - v0, vec(scene_.vertices[triangle.vertex[2]].position) - v0);
+    const glm::dvec3 n =
+        cross3(vec(scene_.vertices[triangle.vertex[1]].position) - v0, vec(scene_.vertices[triangle.vertex[2]].position) - v0);
     const double side = dot3(n, ray.line.origin - v0);
     if (!((triangle.bits & kTriangleFlipped) != 0 ? side < 0 : side > 0)) return false;
   }
@@ -106,9 +109,11 @@ bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
   const Material& m = material(primitive);
   double opacity = settings_.transparency == Transparency::kNone ? 1.0 : double{m.opacity};
   constexpr double kMaskLastLevel = 2;  // coarser ones would thin a fence until it is gone
-  if (const TextureUse* map = use(m.map_opacity)) opacity *= textures_.scalar(*map, point_at(ray, primitive).uv, kMaskLastLevel);
+  if (const TextureUse* map = use(m.map_opacity))
+    opacity *= textures_.scalar(*map, point_at(ray, primitive).uv, kMaskLastLevel);
   if (how == Role::kMask) return opacity >= 0.5;
-  // Bayer 1973: rank in an ordered dither of 8 x 8, the bits of x ^ y and y from the lowest up, as digits from the highest down.
+  // Bayer 1973: rank in an ordered dither of 8 x 8, the bits of x ^ y and y from the lowest up, as digits from the highest
+  // down.
   int rank = 0;
   for (int bit = 0; bit < 3; ++bit) rank |= (((ray.x ^ ray.y) >> bit & 1) * 2 + (ray.y >> bit & 1)) << (4 - 2 * bit);
   return ((rank + ray.rank_shift) & 63) < static_cast<int>(std::floor(std::clamp(opacity, 0.0, 1.0) * 64 + 0.5));
@@ -125,11 +130,14 @@ glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive)
   return dot3(blend, blend) > 1e-6 ? normalize3(blend, point.geometric) : point.geometric;
 }
 
-// Height maps after Blinn 1978, then normal maps, whose 8-bit channel c means (c - 128) / 127. Tangents go along growing s and t.
+// Height maps after Blinn 1978, then normal maps, whose 8-bit channel c means (c - 128) / 127. Tangents go along growing s and
+// t.
 glm::dvec3 Surfaces::bumped(const Point& p, const Material& m, glm::dvec3 n) const {
   if (p.du[0] * p.dv[1] - p.du[1] * p.dv[0] == 0) return n;
-  const glm::dvec3 b1 = cross3(p.edge2, p.normal), b2 = cross3(p.normal, p.edge1);  // gradients of the weights, but for |normal|^2
-  const glm::dvec3 along_u = normalize3(b1 * p.du[0] + b2 * p.du[1], glm::dvec3(0)), along_v = normalize3(b1 * p.dv[0] + b2 * p.dv[1], glm::dvec3(0));
+  const glm::dvec3 b1 = cross3(p.edge2, p.normal),
+                   b2 = cross3(p.normal, p.edge1);  // gradients of the weights, but for |normal|^2
+  const glm::dvec3 along_u = normalize3(b1 * p.du[0] + b2 * p.du[1], glm::dvec3(0)),
+                   along_v = normalize3(b1 * p.dv[0] + b2 * p.dv[1], glm::dvec3(0));
   const auto perturb = [&](const TextureUse& map, double s, double t, double z) {
     const glm::dvec3 u = tangent(along_u, n, map.scale[0]), v = tangent(along_v, n, map.scale[1]);
     if ((s == 0 && t == 0 && z > 0) || dot3(u, u) == 0 || dot3(v, v) == 0) return;
@@ -156,7 +164,8 @@ void Surfaces::apply_maps(const Point& p, const Material& m, Surface& s) const {
   if (settings_.textures) {
     times(s.diffuse, m.map_diffuse), times(s.ambient, m.map_ambient >= 0 ? m.map_ambient : m.map_diffuse);
     times(s.specular, m.map_specular), times(s.mirror, m.map_specular), times(s.emission, m.map_emission);
-    if (const TextureUse* u = use(m.map_shininess)) s.shininess = std::clamp(s.shininess * textures_.scalar(*u, p.uv), 0.0, 1e4);
+    if (const TextureUse* u = use(m.map_shininess))
+      s.shininess = std::clamp(s.shininess * textures_.scalar(*u, p.uv), 0.0, 1e4);
   }
   if (const TextureUse* u = use(m.map_opacity)) s.opacity = std::clamp(s.opacity * textures_.scalar(*u, p.uv), 0.0, 1.0);
 }

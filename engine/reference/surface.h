@@ -13,8 +13,8 @@ Role role_of(const Material& material, const Settings& settings);
 struct Ray {
   Line line;
   glm::dvec3 origin_dx{0}, origin_dy{0}, direction_dx{0}, direction_dy{0};
-  int x = 0, y = 0;      // the pixel that started it: where it stands in the screen-door pattern
-  int rank_shift = 0;    // of the pattern, for the samples of a pixel
+  int x = 0, y = 0;    // the pixel that started it: where it stands in the screen-door pattern
+  int rank_shift = 0;  // of the pattern, for the samples of a pixel
 };
 
 struct Surface {

@@ -13,7 +13,8 @@ int level_size(int size, int level) { return std::max(1, size >> level); }
 Textures::Levels Textures::levels(const TextureUse& use, const Coordinates& at, double last_level) const {
   const Texture& t = texture(use);
   const double width = t.width * double{use.scale[0]}, height = t.height * double{use.scale[1]};
-  const double longer = std::max(std::hypot(at.du_dx * width, at.dv_dx * height), std::hypot(at.du_dy * width, at.dv_dy * height));
+  const double longer =
+      std::max(std::hypot(at.du_dx * width, at.dv_dx * height), std::hypot(at.du_dy * width, at.dv_dy * height));
   const double last = std::min<double>(t.levels - 1, last_level);
   const double level = std::clamp(longer > 0 ? std::log2(longer) : 0.0, 0.0, last);  // infinity: the last
   if (filter_ != Filter::kTrilinear) return {static_cast<int>(std::floor(level + 0.5)), 0};
@@ -24,16 +25,18 @@ glm::dvec4 Textures::texel(const TextureUse& use, int level, int x, int y) const
   const Texture& t = texture(use);
   const auto wrap = [&](int i, int n) { return use.clamp != 0 ? std::clamp(i, 0, n - 1) : (i % n + n) % n; };
   const int w = level_size(t.width, level), h = level_size(t.height, level);
-  const Texel& p = scene_.texels[static_cast<size_t>(t.offset[level]) + static_cast<size_t>(wrap(y, h)) * static_cast<size_t>(w) +
-                                 static_cast<size_t>(wrap(x, w))];
+  const Texel& p = scene_.texels[static_cast<size_t>(t.offset[level]) +
+                                 static_cast<size_t>(wrap(y, h)) * static_cast<size_t>(w) + static_cast<size_t>(wrap(x, w))];
   return glm::dvec4(p.r, p.g, p.b, p.a) * (1 / 65535.0);
 }
 
 glm::dvec2 Textures::place(const TextureUse& use, const Coordinates& at, int level) const {
   const Texture& t = texture(use);
   double u = at.u * double{use.scale[0]} + double{use.offset[0]}, v = at.v * double{use.scale[1]} + double{use.offset[1]};
-  if (use.clamp != 0) u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
-  else u -= std::floor(u), v -= std::floor(v);
+  if (use.clamp != 0)
+    u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
+  else
+    u -= std::floor(u), v -= std::floor(v);
   return {u * level_size(t.width, level), (1 - v) * level_size(t.height, level)};  // v = 0 is the bottom row
 }
 
@@ -73,7 +76,8 @@ glm::dvec2 Textures::slopes(const TextureUse& use, const Coordinates& at) const 
   const auto on_level = [&](int level) {
     const glm::dvec2 p = place(use, at, level);
     const auto height = [&](double dx, double dy) { return channel(use, bilinear(use, level, p + glm::dvec2(dx, dy))); };
-    return glm::dvec2(height(0.5, 0) - height(-0.5, 0), height(0, -0.5) - height(0, 0.5)) * std::ldexp(1.0, -level);  // rows go down, t up
+    return glm::dvec2(height(0.5, 0) - height(-0.5, 0), height(0, -0.5) - height(0, 0.5)) *
+           std::ldexp(1.0, -level);  // rows go down, t up
   };
   const Levels l = levels(use, at, 1e9);
   glm::dvec2 slope = on_level(l.first);

@@ -6,14 +6,16 @@
 namespace spanray::reference {
 
 // Texture coordinates of the mesh at a point, and how they change by a step of one pixel in x and in y.
-struct Coordinates { double u = 0, v = 0, du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0; };
+struct Coordinates {
+  double u = 0, v = 0, du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
+};
 
 class Textures {
  public:
   Textures(const SceneData& scene, Filter filter) : scene_(scene), filter_(filter) {}
 
-  // Channels in [0, 1], not remapped. Level of detail: log2 of the longer side of the pixel's parallelogram in texels (Williams 1983;
-  // OpenGL 4.6, 8.14), at most last_level; nearest and bilinear take the nearest level, trilinear blends two.
+  // Channels in [0, 1], not remapped. Level of detail: log2 of the longer side of the pixel's parallelogram in texels (Williams
+  // 1983; OpenGL 4.6, 8.14), at most last_level; nearest and bilinear take the nearest level, trilinear blends two.
   glm::dvec4 sample(const TextureUse& use, const Coordinates& at, double last_level = 1e9) const;
   // base + gain * sample, per channel not below 0.
   glm::dvec3 color(const TextureUse& use, const Coordinates& at) const;
@@ -24,7 +26,10 @@ class Textures {
   glm::dvec2 slopes(const TextureUse& use, const Coordinates& at) const;
 
  private:
-  struct Levels { int first; double weight; };  // of the next one
+  struct Levels {
+    int first;
+    double weight;
+  };  // of the next one
   Levels levels(const TextureUse& use, const Coordinates& at, double last_level) const;
   glm::dvec4 texel(const TextureUse& use, int level, int x, int y) const;
   // Where the point lies on a level, in texels from its upper left corner.

@@ -15,8 +15,8 @@ glm::dvec3 position(const SceneData& scene, uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
-// The sign of a_x b_y - a_y b_x, exactly: products that round to different numbers are in that order, and of equal ones fma gives what
-// rounding took away.
+// The sign of a_x b_y - a_y b_x, exactly: products that round to different numbers are in that order, and of equal ones fma
+// gives what rounding took away.
 int turn(double ax, double ay, double bx, double by) {
   const double p = ax * by, q = ay * bx;
   if (p != q) return p > q ? 1 : -1;
@@ -28,7 +28,8 @@ int turn(double ax, double ay, double bx, double by) {
 
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t) {
   const glm::dvec3& d = line.direction;
-  const int z = std::fabs(d.x) >= std::fabs(d.y) ? (std::fabs(d.x) >= std::fabs(d.z) ? 0 : 2) : (std::fabs(d.y) >= std::fabs(d.z) ? 1 : 2);
+  const int z = std::fabs(d.x) >= std::fabs(d.y) ? (std::fabs(d.x) >= std::fabs(d.z) ? 0 : 2)
+                                                 : (std::fabs(d.y) >= std::fabs(d.z) ? 1 : 2);
   if (d[z] == 0) return false;
   const int x = (z + 1) % 3, y = (z + 2) % 3;
   double px[3], py[3], depth[3], area[3], sum = 0;
@@ -104,14 +105,20 @@ size_t Tree::split(std::vector<Reference>& list, size_t begin, size_t end) {
     }
   }
   if (best_axis < 0) return begin + (end - begin) / 2;
-  const auto middle = std::partition(list.begin() + static_cast<std::ptrdiff_t>(begin), list.begin() + static_cast<std::ptrdiff_t>(end),
-                                     [&](const Reference& r) { return bin_of(r, best_axis) < best_bin; });
+  const auto middle =
+      std::partition(list.begin() + static_cast<std::ptrdiff_t>(begin), list.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const Reference& r) { return bin_of(r, best_axis) < best_bin; });
   return static_cast<size_t>(middle - list.begin());
 }
 
 void Tree::build(std::vector<Reference>& list, size_t begin, size_t end) {
-  // Past 40 levels the heuristic is not asked any more and lists are halved: walk() never needs more than 40 + 32 entries of its stack.
-  struct Task { size_t begin, end; int depth; size_t parent; };
+  // Past 40 levels the heuristic is not asked any more and lists are halved: walk() never needs more than 40 + 32 entries of
+  // its stack.
+  struct Task {
+    size_t begin, end;
+    int depth;
+    size_t parent;
+  };
   std::vector<Task> tasks = {{begin, end, 0, SIZE_MAX}};
   while (!tasks.empty()) {
     const Task task = tasks.back();

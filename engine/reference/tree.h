@@ -9,10 +9,13 @@
 
 namespace spanray::reference {
 
-struct Line { glm::dvec3 origin{0}, direction{0}; };  // origin + t * direction; the direction has any length
+struct Line {
+  glm::dvec3 origin{0}, direction{0};
+};  // origin + t * direction; the direction has any length
 
 // Does the line meet the triangle, and at which t (of any sign)?
-// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection": vertices sheared so that the line is an axis, then a test in the
+// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection": vertices sheared so that the line is an axis,
+// then a test in the
 //           plane, whose signs are exact here. Edges and vertices count as inside, for every triangle that has them.
 // Contract: no line slips between triangles that share vertices. t lies within the range of the corners.
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
@@ -22,14 +25,16 @@ struct Met {
   uint32_t primitive = kNoPrimitive;
 };
 
-// A bounding volume hierarchy over some triangles of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a leaf.
-// It only saves work: everything is decided by meets(), so the answers are those of asking every triangle.
+// A bounding volume hierarchy over some triangles of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a
+// leaf. It only saves work: everything is decided by meets(), so the answers are those of asking every triangle.
 class Tree {
  public:
   Tree(const SceneData& scene, const std::vector<uint32_t>& primitives);
 
-  // The least t in (t_min, t_max] that accept(primitive, t) takes; of equal ones the lowest id. accept is asked for candidates only.
-  template <class Accept> Met closest(const Line& line, double t_min, double t_max, const Accept& accept) const {
+  // The least t in (t_min, t_max] that accept(primitive, t) takes; of equal ones the lowest id. accept is asked for candidates
+  // only.
+  template <class Accept>
+  Met closest(const Line& line, double t_min, double t_max, const Accept& accept) const {
     Met best;
     walk(line, t_max, [&](uint32_t primitive, double t, double& limit) {
       if (!(t > t_min) || t > best.t || (t == best.t && primitive > best.primitive) || !accept(primitive, t)) return false;
@@ -39,13 +44,15 @@ class Tree {
     return best;
   }
   // Whether accept takes any hit in (t_min, t_max].
-  template <class Accept> bool any(const Line& line, double t_min, double t_max, const Accept& accept) const {
+  template <class Accept>
+  bool any(const Line& line, double t_min, double t_max, const Accept& accept) const {
     bool found = false;
     walk(line, t_max, [&](uint32_t primitive, double t, double&) { return found = t > t_min && accept(primitive, t); });
     return found;
   }
   // All hits in (t_min, t_max] that accept takes, in no order.
-  template <class Accept> std::vector<Met> all(const Line& line, double t_min, double t_max, const Accept& accept) const {
+  template <class Accept>
+  std::vector<Met> all(const Line& line, double t_min, double t_max, const Accept& accept) const {
     std::vector<Met> found;
     walk(line, t_max, [&](uint32_t primitive, double t, double&) {
       if (t > t_min && accept(primitive, t)) found.push_back({t, primitive});
@@ -66,15 +73,23 @@ class Tree {
     Box box;
     uint32_t first = 0, count = 0;  // items of a leaf; else the right child is `first`, the left one the next node
   };
-  struct Item { uint32_t primitive; glm::dvec3 v[3]; };
-  struct Reference { Box box; glm::dvec3 center; uint32_t primitive; };
+  struct Item {
+    uint32_t primitive;
+    glm::dvec3 v[3];
+  };
+  struct Reference {
+    Box box;
+    glm::dvec3 center;
+    uint32_t primitive;
+  };
 
   void build(std::vector<Reference>& list, size_t begin, size_t end);
   static size_t split(std::vector<Reference>& list, size_t begin, size_t end);
   static bool enters(const Box& box, const Line& line, double t_max);
 
   // visit(primitive, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
-  template <class Visit> void walk(const Line& line, double t_max, const Visit& visit) const {
+  template <class Visit>
+  void walk(const Line& line, double t_max, const Visit& visit) const {
     if (node_.empty()) return;
     uint32_t stack[128];
     int depth = 0;

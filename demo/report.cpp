@@ -1,0 +1,133 @@
+// spanray report: what each technique costs and errs, on the user's own scene.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "command.h"
+#include "core/atomic_file.h"
+#include "core/read_file.h"
+#include "frame_options.h"
+#include "image/false_color.h"
+#include "picture.h"
+#include "progress_line.h"
+#include "report_page.h"
+
+namespace spanray::demo {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A report renders some thirty settings, and the ground truth with sixteen samples: smaller pictures than those of one frame
+// are its default.
+constexpr int kDefaultWidth = 640, kDefaultHeight = 360;
+constexpr double kMostDifference = 64;  // of the maps of differences, codes: the same for all, so that they can be compared
+
+struct ReportCommand {
+  FrameOptions frame;
+  std::string out;
+  TradeOptions trade;
+};
+
+// The folder for the report: made if need be, with room for its page.
+Result<void> make_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    return Error{"cannot make this folder: " + (error ? error.message() : std::string("it is a file")), folder};
+  return check_writable(folder + "/report.html");
+}
+
+void default_size(const FrameOptions& options, Settings& settings) {
+  Settings probe;
+  probe.width = -1;
+  if (options.settings_over(probe).width == -1) settings.width = kDefaultWidth, settings.height = kDefaultHeight;
+}
+
+// Writes a picture and gives back the bytes of the file.
+Result<std::string> write_picture(const std::string& path, const Image& image,
+                                  const std::vector<std::pair<std::string, std::string>>& text = {}) {
+  if (auto written = write_png(path, image, text); !written) return written.error();
+  return read_file(path);
+}
+
+Result<std::vector<PageImage>> write_pictures(const std::string& folder, const Report& report) {
+  std::vector<PageImage> images;
+  Result<std::string> truth = write_picture(folder + "/picture-truth.png", report.trade.truth);
+  if (!truth) return truth.error();
+  images.push_back({"truth", "ground truth", std::move(truth.value()), ""});
+  if (auto center = write_picture(folder + "/picture-truth-center.png", report.trade.truth_center); !center)
+    return center.error();
+  const int width = report.trade.truth.width, height = report.trade.truth.height;
+  for (const Measured& m : report.trade.settings) {
+    Job job = report.job;
+    job.settings = m.candidate.settings;
+    Result<std::string> picture = write_picture(folder + "/picture-" + m.candidate.id + ".png", m.picture, picture_text(job));
+    if (!picture) return picture.error();
+    Result<std::string> flip =
+        write_picture(folder + "/flip-" + m.candidate.id + ".png", false_color(m.maps.flip, width, height, 1));
+    if (!flip) return flip.error();
+    const Image difference = false_color(m.maps.difference, width, height, kMostDifference);
+    if (auto written = write_png(folder + "/error-" + m.candidate.id + ".png", difference); !written) return written.error();
+    images.push_back({m.candidate.id, m.candidate.name, std::move(picture.value()), std::move(flip.value())});
+  }
+  return images;
+}
+
+Result<void> write_report(const std::string& folder, const Report& report) {
+  Result<std::vector<PageImage>> images = write_pictures(folder, report);
+  if (!images) return images.error();
+  const std::string json = report_json(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (auto written = write_file_atomic(folder + "/report.csv", report_csv(report)); !written) return written;
+  if (auto written = write_file_atomic(folder + "/report.json", json); !written) return written;
+  return write_file_atomic(folder + "/report.html", report_page(report, images.value()));
+}
+
+int run_report(const ReportCommand& command) {
+  if (auto made = make_folder(command.out); !made) return fail(made.error());
+  Result<Job> job = command.frame.load();
+  if (!job) return fail(job.error());
+  for (const std::string& text : job.value().messages) message(text);
+  Report report;
+  report.scene_path = command.frame.scene_path(), report.command = command_line();
+  report.job = std::move(job.value()), report.options = command.trade;
+  default_size(command.frame, report.job.settings);
+  report.knobs = make_knobs(report.job.scene, report.job.settings);
+  ProgressLine progress("report");
+  report.options.progress = [&](const char* what, double fraction) { progress.show(what, fraction); };
+  Result<Trade> trade =
+      measure_trade(report.job, report.knobs, make_candidates(report.knobs, report.job.settings), report.options);
+  progress.clear();
+  if (!trade) return fail(trade.error());
+  report.trade = std::move(trade.value());
+  report.dominated = dominated_by(costs(report));
+  report.not_modelled = find_not_modelled(report.job);
+  report.machine = describe_machine(report);
+  if (auto written = write_report(command.out, report); !written) return fail(written.error());
+  std::printf("%s/report.html\n", command.out.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand(
+      "report", "Speed against error: every technique measured and compared with the ground truth, as an HTML page");
+  auto options = std::make_shared<ReportCommand>();
+  options->frame.add_to(*command);
+  command->add_option("--out", options->out, "Folder of the report: report.html, report.csv, report.json and pictures")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--frames", options->trade.frames, "Frames of each setting; default 30")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
+  command->add_option("--warmup", options->trade.warmup, "Frames before them, not measured; default 2")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  command->add_option("--grid", options->trade.grid, "The ground truth takes N x N samples a pixel; default 4")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N");
+  command->callback([options, &run] { run = [options] { return run_report(*options); }; });
+}
+
+}  // namespace spanray::demo

@@ -1,0 +1,170 @@
+#include "report_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+
+#include "command.h"
+#include "core/counted.h"
+#include "core/hash.h"
+#include "core/number_text.h"
+#include "scene/scene_data.h"
+#include "stats_json.h"
+
+namespace spanray::demo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
+  return "unknown";
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
+// Infinity, the PSNR of equal pictures, is no number of JSON.
+Json number_json(double v) { return std::isfinite(v) ? Json(v) : Json("inf"); }
+
+Json metrics_json(const Metrics& m) {
+  Json out;
+  for (const MetricWord& word : kMetricWords) out[word.name] = number_json(m.*word.value);
+  return out;
+}
+
+std::string leading_id(const Report& report, size_t i) {
+  return report.dominated[i] < 0 ? "" : report.trade.settings[static_cast<size_t>(report.dominated[i])].candidate.id;
+}
+
+}  // namespace
+
+std::vector<Cost> costs(const Report& report) {
+  std::vector<Cost> list;
+  for (const Measured& m : report.trade.settings) list.push_back({m.median_ms(), m.error.*kRankedBy});
+  return list;
+}
+
+std::string report_csv(const Report& report) {
+  std::string text = "id,group,name";
+  for (const auto& stage : kStages)
+    if (stage.time != &StageTimes::bvh_build) text += std::string(",median_ms_") + stage.name + ",p95_ms_" + stage.name;
+  text += ",bvh_build_ms";
+  for (const MetricWord& word : kMetricWords) text += std::string(",") + word.name;
+  text += ",wrong_ids";
+  for (const MetricWord& word : kMetricWords) text += std::string(",alone_") + word.name;
+  text += ",dominated_by";
+  for (const auto& [key, value] : settings_words(report.job.settings)) text += "," + key;
+  text += "\n";
+  for (size_t i = 0; i < report.trade.settings.size(); ++i) {
+    const Measured& m = report.trade.settings[i];
+    text += m.candidate.id + "," + m.candidate.group + "," + quoted(m.candidate.name);
+    for (const auto& stage : kStages)
+      if (stage.time != &StageTimes::bvh_build)
+        text += "," + number_text(m.median_ms(stage.time)) + "," + number_text(m.p95_ms(stage.time));
+    text += "," + number_text(m.bvh_build_ms);
+    for (const MetricWord& word : kMetricWords) text += "," + number_text(m.error.*word.value);
+    text += "," + (m.wrong_ids ? std::to_string(*m.wrong_ids) : "");
+    for (const MetricWord& word : kMetricWords) text += "," + (m.error_alone ? number_text(*m.error_alone.*word.value) : "");
+    text += "," + leading_id(report, i);
+    for (const auto& [key, value] : settings_words(m.candidate.settings)) text += "," + value;
+    text += "\n";
+  }
+  return text;
+}
+
+Json report_json(const Report& report) {
+  Json out;
+  for (const auto& [key, value] : report.machine) out["about"][key] = value;
+  out["ranked_by"] = "flip";
+  for (const Knob& knob : report.knobs) {
+    Json k = {{"name", knob.name}, {"what", knob.what}, {"used", knob.absent.empty()}};
+    if (!knob.absent.empty()) k["why_not"] = knob.absent;
+    for (const KnobChoice& choice : knob.choices) k["choices"].push_back(choice.word);
+    out["knobs"].push_back(k);
+  }
+  for (size_t i = 0; i < report.trade.settings.size(); ++i) {
+    const Measured& m = report.trade.settings[i];
+    Json s = {{"id", m.candidate.id}, {"name", m.candidate.name}, {"group", m.candidate.group}};
+    for (const auto& [key, value] : settings_words(m.candidate.settings)) s["settings"][key] = value;
+    for (const auto& stage : kStages) {
+      if (stage.time == &StageTimes::bvh_build) continue;
+      s["median_ms"][stage.name] = m.median_ms(stage.time), s["p95_ms"][stage.name] = m.p95_ms(stage.time);
+    }
+    for (const FrameStats& frame : m.frames) s["frame_ms"].push_back(frame.ms.frame);
+    s["bvh_build_ms"] = m.bvh_build_ms;
+    s["error"] = metrics_json(m.error);
+    if (m.wrong_ids) s["wrong_ids"] = *m.wrong_ids;
+    if (m.error_alone) s["error_alone"] = metrics_json(*m.error_alone);
+    s["hash"] = hash_text(hash_image(m.picture));
+    if (report.dominated[i] >= 0) s["dominated_by"] = leading_id(report, i);
+    out["settings"].push_back(s);
+  }
+  out["plan"] = plan_json(plan_frame(report.job.scene, plain_settings(report.knobs, report.job.settings)));
+  out["not_modelled"] = report.not_modelled;
+  return out;
+}
+
+std::vector<std::string> find_not_modelled(const Job& job) {
+  const SceneData& scene = job.scene.data();
+  uint64_t glass = 0, emitting = 0;
+  for (const Material& m : scene.materials) {
+    glass += m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+    emitting += m.emission[0] > 0 || m.emission[1] > 0 || m.emission[2] > 0;
+  }
+  std::vector<std::string> list;
+  if (glass > 0)
+    list.push_back(counted(glass, "material", "materials") +
+                   " of glass (illum 4, 6, 7, 9): blended by opacity, no refraction, no mirror rays");
+  if (emitting > 0) list.push_back(counted(emitting, "material", "materials") + " that emit: they are seen, but light nothing");
+  list.push_back(
+      "light by way of other surfaces (global illumination): one ambient radiance stands for it, in the ground truth as well");
+  list.push_back("lights with an area: shadows have hard edges, in the ground truth as well");
+  for (const std::string& message : job.messages) list.push_back("the loader says: " + message);
+  return list;
+}
+
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  while (!text.empty() && text.back() == '\0') text.pop_back();
+  std::replace(text.begin(), text.end(), '\0', ' ');
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> describe_machine(const Report& report) {
+  const FrameStats& frame = report.trade.settings.at(0).frames.back();
+  const std::time_t now = std::time(nullptr);
+  char date[32] = "";
+  std::tm utc{};
+  if (::gmtime_r(&now, &utc) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
+  const Settings& s = report.job.settings;
+  return {{"scene", report.scene_path},
+          {"scene hash", hash_text(report.job.scene.hash())},
+          {"triangles", std::to_string(report.job.scene.triangle_count())},
+          {"camera", camera_text(report.job.camera)},
+          {"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
+          {"processor", cpu_name() + ", " + std::to_string(Parallel::available()) + " processors for this process"},
+          {"threads", std::to_string(frame.threads)},
+          {"instruction set", frame.isa},
+          {"compiler", compiler_name()},
+          {"spanray", SPANRAY_VERSION},
+          {"numeric contract", std::to_string(kNumericContract)},
+          {"frames", std::to_string(report.options.frames) + " of each setting after " + std::to_string(report.options.warmup) +
+                         ", in turns of five after one that is not measured"},
+          {"ground truth", "every knob exact, " + std::to_string(report.options.grid) + " x " +
+                               std::to_string(report.options.grid) + " samples a pixel, double precision, " +
+                               std::to_string(std::lround(report.trade.truth_seconds)) +
+                               " s; no random numbers, so there is no seed"},
+          {"date", date},
+          {"command", report.command}};
+}
+
+}  // namespace spanray::demo

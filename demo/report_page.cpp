@@ -1,0 +1,296 @@
+#include "report_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/number_text.h"
+#include "report_plot.h"
+#include "report_style.h"
+#include "spanray/render.h"
+
+namespace spanray::demo {
+namespace {
+
+// Source: RFC 4648, 4.
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+// A few significant digits, as the eye wants them; the CSV has all.
+std::string short_number(double v) {
+  char text[40];
+  if (!std::isfinite(v)) return "∞";
+  std::snprintf(text, sizeof text,
+                v >= 100               ? "%.0f"
+                : v >= 10              ? "%.1f"
+                : v >= 1               ? "%.2f"
+                : v >= 0.001 || v == 0 ? "%.4f"
+                                       : "%.1e",
+                v);
+  return text;
+}
+std::string cell(const std::string& text, const char* kind = "") {
+  return std::string("<td") + (*kind != 0 ? " class=\"" + std::string(kind) + "\"" : "") + ">" + text + "</td>";
+}
+std::string cell(double v) { return cell(short_number(v)); }
+std::string hundredths(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f", v);
+  return text;
+}
+std::string milliseconds(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, v >= 100 ? "%.0f" : v >= 10 ? "%.1f" : "%.2f", v);
+  return text;
+}
+std::string head(std::initializer_list<const char*> titles) {
+  std::string text = "<tr>";
+  bool first = true;
+  for (const char* title : titles) text += std::string(first ? "<th class=\"text\">" : "<th>") + title + "</th>", first = false;
+  return text + "</tr>\n";
+}
+
+const Measured& setting(const Report& r, int i) { return r.trade.settings[static_cast<size_t>(i)]; }
+std::string name_of(const Report& r, int i) { return escape_html(setting(r, i).candidate.name); }
+
+std::string summary(const Report& r) {
+  const Measured& plain = r.trade.settings[0];
+  const std::vector<Cost> all = costs(r);
+  const auto best = std::min_element(all.begin(), all.end(), [](const Cost& a, const Cost& b) { return a.error < b.error; });
+  const auto fastest = std::min_element(all.begin(), all.end(), [](const Cost& a, const Cost& b) { return a.ms < b.ms; });
+  std::string text = "<p>With every technique exact and one sample a pixel a frame takes <b>" + milliseconds(all[0].ms) +
+                     " ms</b> (median; " + milliseconds(plain.p95_ms()) + " at the 95th percentile) and errs by FLIP <b>" +
+                     short_number(all[0].error) + "</b> against the ground truth";
+  if (plain.error_alone && plain.wrong_ids) {
+    const double pixels = static_cast<double>(r.job.settings.width) * r.job.settings.height;
+    text += ". Against the reference that has one sample at each pixel's center, too, it errs by <b>" +
+            short_number(plain.error_alone->flip) + "</b> (" + std::to_string(*plain.wrong_ids) + " of " +
+            std::to_string(static_cast<long>(pixels)) + " pixels see another triangle, " +
+            short_number(100 * plain.error_alone->over_1) + " % are more than 1 of 255 off)";
+    if (plain.error_alone->flip < 0.5 * plain.error.flip) text += ": the rest is aliasing";
+  }
+  text += ".</p>\n<p>The fastest setting, <i>" + name_of(r, static_cast<int>(fastest - all.begin())) + "</i>, takes " +
+          milliseconds(fastest->ms) + " ms and errs by " + short_number(fastest->error) + "; the one that errs least, <i>" +
+          name_of(r, static_cast<int>(best - all.begin())) + "</i>, takes " + milliseconds(best->ms) + " ms and errs by " +
+          short_number(best->error) + ".</p>\n";
+  const auto disturbed = std::count_if(r.trade.settings.begin(), r.trade.settings.end(),
+                                       [](const Measured& m) { return m.p95_ms() > 1.5 * m.median_ms(); });
+  if (disturbed > 0)
+    text +=
+        "<p class=\"warn\">Of " + std::to_string(disturbed) +
+        " settings the 95th percentile is more than 1.5 times the median: other programs were at work, or the frames too few. "
+        "Medians of neighbours that differ by a few percent mean nothing then.</p>\n";
+  return text;
+}
+
+std::string scatter(const Report& r) {
+  std::string text =
+      "<h2>Error against time</h2>\n<p>Each point is a setting. Filled and numbered: the Pareto front, settings that no other "
+      "one beats in both. Hollow: some "
+      "other setting is as fast and errs less, or as little and is faster. A click shows the picture below. Error by <select "
+      "id=\"metric\">";
+  for (const MetricWord& word : kMetricWords)
+    if (!word.more_is_better)
+      text += std::string("<option") + (word.value == kRankedBy ? " selected" : "") + ">" + word.name + "</option>";
+  text += "</select>; the tables below rank by flip.</p>\n";
+  for (const MetricWord& word : kMetricWords) {
+    if (word.more_is_better) continue;
+    std::vector<Cost> points;
+    for (const Measured& m : r.trade.settings) points.push_back({m.median_ms(), m.error.*word.value});
+    const std::vector<int> beaten = dominated_by(points);
+    std::vector<PlotPoint> plot;
+    for (size_t i = 0; i < points.size(); ++i)
+      plot.push_back({points[i], r.trade.settings[i].candidate.id, r.trade.settings[i].candidate.name, beaten[i] < 0});
+    text += std::string("<div class=\"plot\" id=\"plot-") + word.name + "\"" + (word.value == kRankedBy ? "" : " hidden") +
+            ">" + scatter_plot(plot, std::string(word.name) + (*word.unit != 0 ? std::string(" (") + word.unit + ")" : "")) +
+            "</div>\n";
+  }
+  std::vector<int> front;
+  for (size_t i = 0; i < r.dominated.size(); ++i)
+    if (r.dominated[i] < 0) front.push_back(static_cast<int>(i));
+  std::sort(front.begin(), front.end(), [&](int a, int b) { return setting(r, a).median_ms() < setting(r, b).median_ms(); });
+  text +=
+      "<h3>The front, by flip</h3>\n<div class=\"wide\"><table>" + head({"Setting", "number", "median ms", "p95 ms", "FLIP"});
+  for (size_t k = 0; k < front.size(); ++k) {
+    const Measured& m = setting(r, front[k]);
+    text += "<tr class=\"pick\" data-id=\"" + escape_html(m.candidate.id) + "\">" + cell(name_of(r, front[k]), "text") +
+            cell(std::to_string(k + 1), "front") + cell(milliseconds(m.median_ms())) + cell(milliseconds(m.p95_ms())) +
+            cell(m.error.flip) + "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+// name: as it stands under the heading of its group.
+std::string setting_row(const Report& r, size_t i, const std::string& name) {
+  const Measured &m = r.trade.settings[i], &plain = r.trade.settings[0];
+  const double ratio = m.median_ms() / plain.median_ms();
+  const Metrics& e = m.error;
+  std::string text = "<tr class=\"pick" + std::string(i == 0 ? " plain" : "") + "\" data-id=\"" + escape_html(m.candidate.id) +
+                     "\">" + cell(escape_html(name), "text") + cell(milliseconds(m.median_ms())) +
+                     cell(milliseconds(m.p95_ms())) + cell(hundredths(ratio) + " x");
+  text += cell(m.wrong_ids ? std::to_string(*m.wrong_ids) : "–") + cell(e.flip) +
+          cell(m.error_alone ? short_number(m.error_alone->flip) : "–") + cell(e.max) + cell(e.p99_9) +
+          cell(short_number(100 * e.over_1) + " %") + cell(e.rmse_linear) + cell(e.relmse) + cell(e.psnr_db) + cell(e.ssim);
+  text += r.dominated[i] < 0 ? cell("on the front", "front") : cell("beaten by " + name_of(r, r.dominated[i]), "beaten");
+  return text + "</tr>\n";
+}
+
+std::string knob_table(const Report& r) {
+  std::string text =
+      "<h2>Knob by knob</h2>\n<p>Each row turns one knob of the plain settings (the first row). Errors are those of the "
+      "picture as shown, against the ground "
+      "truth with its many samples; <i>FLIP alone</i> is against the reference with one sample at each pixel's center, so that "
+      "it counts what the technique "
+      "errs and not the lack of samples. <i>Wrong ids</i>: pixels whose center sees another triangle than the reference "
+      "says.</p>\n<div class=\"wide\"><table>" +
+      head({"Setting", "median ms", "p95 ms", "of plain", "wrong ids", "FLIP", "FLIP alone", "max", "p99.9", "off by &gt; 1",
+            "RMSE linear", "relMSE", "PSNR dB", "SSIM", "Pareto"});
+  text += setting_row(r, 0, r.trade.settings[0].candidate.name);
+  const auto rows_of = [&](const std::string& group) {
+    std::string rows;
+    for (size_t i = 1; i < r.trade.settings.size(); ++i)
+      if (const Candidate& c = r.trade.settings[i].candidate; c.group == group)
+        rows += setting_row(r, i, c.name.starts_with(group + ": ") ? c.name.substr(group.size() + 2) : c.name);
+    return rows;
+  };
+  for (const Knob& knob : r.knobs) {
+    text += "<tr class=\"group\"><td colspan=\"15\">" + escape_html(knob.name) + " <span>" + escape_html(knob.what) +
+            (knob.absent.empty() ? "; plain: " + escape_html(knob.choices[knob.plain].word)
+                                 : ". Not measured: " + escape_html(knob.absent)) +
+            "</span></td></tr>\n";
+    text += rows_of(knob.name);
+  }
+  text +=
+      "<tr class=\"group\"><td colspan=\"15\">ladder <span>from every knob at its cheapest to every knob exact, one after the "
+      "other</span></td></tr>\n" +
+      rows_of("ladder");
+  return text + "</table></div>\n";
+}
+
+std::string stage_table(const Report& r) {
+  std::string text =
+      "<h2>Where the time goes</h2>\n<p>Median milliseconds of each stage. Stages inside tiles are thread time divided by the "
+      "number of threads, so a row adds up to less "
+      "than its frame where threads wait. Building the trees happens once a scene and is not part of a frame.</p>\n<div "
+      "class=\"wide\"><table><tr><th class=\"text\">Setting</th>";
+  for (const auto& stage : kStages) text += std::string("<th>") + stage.name + "</th>";
+  text += "</tr>\n";
+  for (const Measured& m : r.trade.settings) {
+    text += "<tr>" + cell(escape_html(m.candidate.name), "text");
+    for (const auto& stage : kStages) {
+      const double ms = stage.time == &StageTimes::bvh_build ? m.bvh_build_ms : m.median_ms(stage.time);
+      text += cell(ms == 0 ? "–" : milliseconds(ms));
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::string budget_tables(const Report& r) {
+  const std::vector<Cost> points = costs(r);
+  const auto row = [&](const std::string& budget, int i) {
+    return "<tr class=\"pick\" data-id=\"" + escape_html(setting(r, i).candidate.id) + "\">" + cell(name_of(r, i), "text") +
+           cell(budget) + cell(milliseconds(points[static_cast<size_t>(i)].ms)) + cell(points[static_cast<size_t>(i)].error) +
+           "</tr>\n";
+  };
+  std::string text =
+      "<h2>Equal time, equal error</h2>\n<h3>The least error for a budget of time</h3>\n<div class=\"wide\"><table>" +
+      head({"Setting", "budget, ms", "median ms", "FLIP"});
+  int last = -1;
+  for (const double ms : {1., 2., 4., 8., 16., 33., 50., 66., 100., 150., 200., 300., 500., 1000., 2000., 5000.}) {
+    const int i = best_within_time(points, ms);
+    if (i >= 0 && i != last) text += row(number_text(ms), i);
+    last = i;
+  }
+  text += "</table></div>\n<h3>The least time for a bound on the error</h3>\n<div class=\"wide\"><table>" +
+          head({"Setting", "FLIP at most", "median ms", "FLIP"});
+  last = -1;
+  for (const double error :
+       {0.5, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.015, 0.01, 0.007, 0.005, 0.003, 0.002, 0.001}) {
+    const int i = fastest_within_error(points, error);
+    if (i >= 0 && i != last) text += row(number_text(error), i);
+    last = i;
+  }
+  return text + "</table></div>\n<p class=\"dim\">Budgets for which the setting stays the same are left out.</p>\n";
+}
+
+const char* const kPictures = R"html(<h2 id="pictures">Pictures</h2>
+<p>Left of the bar <select id="left"></select>, right of it <select id="right"></select></p>
+<div class="slider"><img id="under" alt="left picture"><img id="over" class="over" alt="right picture"><div id="bar" class="bar"></div></div>
+<p><input id="where" type="range" min="0" max="100" value="50" aria-label="where the bar stands"><br>
+<span class="dim"><span id="name-left"></span> | <span id="name-right"></span></span></p>
+<div class="pair"><figure><img id="pair-picture" alt="picture"><figcaption id="pair-name"></figcaption></figure>
+<figure><img id="pair-flip" alt="FLIP map"><figcaption>its FLIP against the ground truth: black equal, pale yellow 1</figcaption></figure></div>
+<p class="dim">Differences of codes are in the folder of this page, as error-NAME.png (pale yellow is 64 of 255 or more).</p>
+)html";
+
+std::string plan_section(const Report& r) {
+  std::string text =
+      "<h2>The plan</h2>\n<p>What the plain settings of this scene need. A stage that is not needed allocates nothing and runs "
+      "nothing.</p>\n<div class=\"wide\"><table>"
+      "<tr><th class=\"text\">Stage</th><th>needed</th><th class=\"text\">why</th></tr>\n";
+  for (const PlanLine& line : plan_frame(r.job.scene, plain_settings(r.knobs, r.job.settings)))
+    text += "<tr>" + cell(escape_html(line.stage), "text") + cell(line.needed ? "yes" : "no", line.needed ? "yes" : "") +
+            cell(escape_html(line.reason), "text") + "</tr>\n";
+  text +=
+      "</table></div>\n<h3>Not modelled</h3>\n<p>By no setting, nor by the ground truth, which is that of the renderer's "
+      "model:</p>\n<ul>\n";
+  for (const std::string& line : r.not_modelled) text += "<li>" + escape_html(line) + "</li>\n";
+  return text + "</ul>\n";
+}
+
+std::string machine_section(const Report& r) {
+  std::string text = "<h2>To repeat this</h2>\n<div class=\"wide\"><table>\n";
+  for (const auto& [key, value] : r.machine)
+    text += "<tr>" + cell(escape_html(key), "text") + cell("<code>" + escape_html(value) + "</code>", "text") + "</tr>\n";
+  return text +
+         "</table></div>\n<p>All numbers stand in <code>report.csv</code> and <code>report.json</code> beside this page, with "
+         "every digit; the pictures as PNG. Errors are those that "
+         "<code>spanray compare picture-truth.png picture-NAME.png</code> prints.</p>\n";
+}
+
+// In a script, "</" must not appear; JSON strings allow "<\/".
+std::string script_string(const std::string& text) {
+  std::string out = nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  for (size_t at = 0; (at = out.find("</", at)) != std::string::npos;) out.insert(at + 1, "\\");
+  return out;
+}
+
+}  // namespace
+
+std::string report_page(const Report& r, const std::vector<PageImage>& images) {
+  const std::string title = "Speed against error: " + escape_html(std::filesystem::path(r.scene_path).filename().string());
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<title>" +
+      title + "</title>\n<style>" + kReportStyle + "</style></head>\n<body>\n<h1>" + title + "</h1>\n<p class=\"dim\">";
+  page += std::to_string(r.job.settings.width) + " x " + std::to_string(r.job.settings.height) + " pixels, " +
+          std::to_string(r.job.scene.triangle_count()) + " triangles, " + std::to_string(r.job.scene.light_count()) +
+          " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + std::to_string(r.options.frames) +
+          " frames each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
+  page += summary(r) + scatter(r) + knob_table(r) + kPictures + budget_tables(r) + stage_table(r) + plan_section(r) +
+          machine_section(r);
+  page +=
+      "<noscript><p>The pictures and the choice of the plot need scripts; all else does not.</p></noscript>\n<script>\nconst "
+      "IMAGES = {\n";
+  for (const PageImage& image : images) {
+    page += script_string(image.id) + ": {name: " + script_string(image.name) + ", picture: \"data:image/png;base64," +
+            base64(image.picture_png) + "\"";
+    if (!image.flip_png.empty()) page += ", flip: \"data:image/png;base64," + base64(image.flip_png) + "\"";
+    page += "},\n";
+  }
+  page += "};\nconst FIRST = " + script_string(r.trade.settings[0].candidate.id) + ";\n" + kReportScript +
+          "</script>\n</body></html>\n";
+  return page;
+}
+
+}  // namespace spanray::demo

@@ -1,0 +1,23 @@
+// Scatter plots as inline SVG.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pareto.h"
+
+namespace spanray::demo {
+
+struct PlotPoint {
+  Cost cost;
+  std::string id, name;   // data-id of the circle, tooltip
+  bool on_front = false;
+};
+
+// Text that stands for itself in HTML and SVG, attributes included.
+std::string escape_html(const std::string& text);
+
+// Error against time, both axes logarithmic; the front as steps, points on it numbered in order of time. An error of 0 is drawn at the
+// bottom. points: not empty, times > 0.
+std::string scatter_plot(const std::vector<PlotPoint>& points, const std::string& error_name);
+
+}  // namespace spanray::demo
