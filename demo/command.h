@@ -23,9 +23,8 @@ void add_compare(CLI::App& app, Run& run);
 void add_why(CLI::App& app, Run& run);
 void add_reference(CLI::App& app, Run& run);
 void add_report(CLI::App& app, Run& run);
+void add_tune(CLI::App& app, Run& run);
 void add_walk(CLI::App& app, Run& run);
-// Commands of the design that this version lacks: they say so and end with exit 2.
-void add_missing(CLI::App& app, Run& run);
 
 // The compiler that built the program, e.g. "GCC 12.2.0".
 std::string compiler_name();

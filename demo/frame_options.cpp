@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/number_text.h"
+#include "scene/scene_file.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
@@ -127,12 +128,22 @@ void FrameOptions::add_to(CLI::App& command) {
   add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");
   add_word(command, "--isa", &Settings::isa, "Instruction set; changes no pixel");
+  command.add_option("--settings", settings_path_, "A file with a [technique], as `tune` writes it; "
+                     "it goes over the scene's, other options go over it")
+      ->type_name("F.toml");
   command.add_flag("--strict", strict_, "Warnings of the scene's files (a missing texture, ...) are errors");
 }
 
 Settings FrameOptions::settings_over(Settings settings) const {
   for (const auto& change : changes_) change(settings);
   return settings;
+}
+
+bool FrameOptions::size_given(const Settings& loaded) const {
+  const Settings defaults;
+  Settings probe;
+  probe.width = -1;
+  return settings_over(probe).width != -1 || loaded.width != defaults.width || loaded.height != defaults.height;
 }
 
 Result<Job> FrameOptions::load(const LoadProgress& progress) const {
@@ -149,7 +160,13 @@ Result<Job> FrameOptions::load(const LoadProgress& progress) const {
   Job job;
   job.scene = loaded.value().scene;
   job.messages = std::move(loaded.value().messages);
-  job.settings = settings_over(job.scene.settings());
+  job.settings = job.scene.settings();
+  if (!settings_path_.empty()) {
+    const Result<Settings> settings = read_settings_file(settings_path_, job.settings);
+    if (!settings) return settings.error();
+    job.settings = settings.value();
+  }
+  job.settings = settings_over(job.settings);
   job.camera = job.scene.cameras()[0];
   if (camera_) camera_->apply(job.camera);
   if (camera_name_.empty()) return job;

@@ -27,6 +27,9 @@ class FrameOptions {
 
   const std::string& scene_path() const { return scene_path_; }
   Settings settings_over(Settings settings) const;  // with the options applied
+  // The size is somebody's wish: --size, or a file that asks for another than the default. loaded: what load() gave.
+  bool size_given(const Settings& loaded) const;
+  bool camera_given() const { return camera_.has_value() || !camera_name_.empty(); }
   // Loads the scene and applies the options. Errors: of the loader. Throws UsageError where the scene lacks the camera named.
   Result<Job> load(const LoadProgress& progress = {}) const;
 
@@ -36,7 +39,7 @@ class FrameOptions {
   void add_switch(CLI::App& command, const std::string& name, bool Settings::*field, const std::string& help);
   void add_number(CLI::App& command, const std::string& name, int Settings::*field, int low, int high, const std::string& help);
 
-  std::string scene_path_, camera_name_;
+  std::string scene_path_, camera_name_, settings_path_;
   std::optional<CameraNumbers> camera_;  // go over the scene's first camera
   bool strict_ = false, allow_outside_ = false;
   std::vector<std::function<void(Settings&)>> changes_;

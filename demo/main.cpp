@@ -53,10 +53,10 @@ int run_program(int argc, char** argv) {
   add_why(app, run);
   add_reference(app, run);
   add_report(app, run);
-  add_missing(app, run);
+  add_tune(app, run);
   try {
     app.parse(argc, argv);
-    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info, why, reference or report");
+    if (!run) return wrong_usage(app, "a command is missing: walk, render, compare, info, why, reference, report or tune");
     const int code = run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("cannot write to standard output");
     return code;

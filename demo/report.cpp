@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A report renders some thirty settings, and the ground truth with sixteen samples: smaller pictures than those of one frame
-// are its default.
-constexpr int kDefaultWidth = 640, kDefaultHeight = 360;
 constexpr double kMostDifference = 64;  // of the maps of differences, codes: the same for all, so that they can be compared
 
 struct ReportCommand {
@@ -36,12 +33,6 @@ Result<void> make_folder(const std::string& folder) {
   if (error || !fs::is_directory(folder))
     return Error{"cannot make this folder: " + (error ? error.message() : std::string("it is a file")), folder};
   return check_writable(folder + "/report.html");
-}
-
-void default_size(const FrameOptions& options, Settings& settings) {
-  Settings probe;
-  probe.width = -1;
-  if (options.settings_over(probe).width == -1) settings.width = kDefaultWidth, settings.height = kDefaultHeight;
 }
 
 // Writes a picture and gives back the bytes of the file.
@@ -91,7 +82,7 @@ int run_report(const ReportCommand& command) {
   Report report;
   report.scene_path = command.frame.scene_path(), report.command = command_line();
   report.job = std::move(job.value()), report.options = command.trade;
-  default_size(command.frame, report.job.settings);
+  if (!command.frame.size_given(report.job.settings)) report.job.settings.width = kReportWidth, report.job.settings.height = kReportHeight;
   report.knobs = make_knobs(report.job.scene, report.job.settings);
   ProgressLine progress("report");
   report.options.progress = [&](const char* what, double fraction) { progress.show(what, fraction); };

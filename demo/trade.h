@@ -14,6 +14,10 @@
 
 namespace spanray::demo {
 
+// `report` and `tune` render some thirty settings, and the ground truth with sixteen samples: smaller pictures than those of one frame are
+// their default.
+inline constexpr int kReportWidth = 640, kReportHeight = 360;
+
 struct Measured {
   Candidate candidate;
   std::vector<FrameStats> frames;  // after the warm-up

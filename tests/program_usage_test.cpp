@@ -89,7 +89,6 @@ TEST_F(ProgramUsage, NumbersAreCheckedBeforeLoading) {
 TEST_F(ProgramUsage, WhatThisVersionLacksSaysSo) {
   expect_usage({"render", scene_, "--out", "a.png", "--shadows", "map"}, {"--shadows", "this version has no `map`"});
   expect_usage({"render", scene_, "--out", "a.png", "--reflections", "env"}, {"--reflections", "this version has no `env`"});
-  expect_usage({"tune", scene_, "--max-ms", "16"}, {"this version has no `tune`"});
 }
 
 TEST_F(ProgramUsage, ACameraThatTheSceneLacksIsNamedWithThoseItHas) {

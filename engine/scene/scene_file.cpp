@@ -5,6 +5,7 @@
 #include <set>
 
 #include "catalog/catalog.h"
+#include "core/read_file.h"
 #include "math/vec.h"
 #include "scene/toml_table.h"
 
@@ -156,16 +157,35 @@ void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {
   }
 }
 
-}  // namespace
-
-Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file) {
+Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
   if (const int line = line_of_dots(text); line > 0)
     return Error{"more than " + std::to_string(kMostDotsInALine) + " dots in one line", file, line};
-  const toml::parse_result parsed = toml::parse(text, file);
+  toml::parse_result parsed = toml::parse(text, file);
   if (!parsed)
     return Error{std::string(parsed.error().description()), file, static_cast<int>(parsed.error().source().begin.line)};
+  return std::move(parsed).table();
+}
+
+}  // namespace
+
+Result<Settings> read_settings_file(const std::string& path, const Settings& base) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  const Result<toml::table> parsed = parse_toml(text.value(), path);
+  if (!parsed) return parsed.error();
+  TomlErrors errors(path);
+  TomlTable root(parsed.value(), "", {"technique"}, errors);
+  Settings settings = base;
+  read_technique(root, settings, errors);
+  if (errors.first()) return *errors.first();
+  return settings;
+}
+
+Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file) {
+  const Result<toml::table> parsed = parse_toml(text, file);
+  if (!parsed) return parsed.error();
   TomlErrors errors(file);
-  TomlTable root(parsed.table(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"},
+  TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"},
                  errors);
   SceneFile scene;
   const SceneData defaults;

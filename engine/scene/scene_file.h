@@ -44,6 +44,10 @@ struct SceneFile {
 // Checks every key: unknown ones, wrong types and values out of range are errors with file and line.
 Result<SceneFile> parse_scene_file(std::string_view text, const std::string& file);
 
+// A file that holds a [technique] as scene files do, and nothing else: what it names goes over `base`. Errors: unreadable, and those of
+// a scene file.
+Result<Settings> read_settings_file(const std::string& path, const Settings& base);
+
 // Applies [material.*] to the materials of `scene`. Error: a name that no material has. Warning: a transparency without effect.
 Result<void> apply_overrides(const SceneFile& scene_file, const std::string& file, SceneData& scene, Messages& messages);
 

@@ -1,0 +1,96 @@
+#include "tuner.h"
+
+#include "job.h"
+
+namespace spanray::demo {
+namespace {
+
+// Times that differ by less are taken for equal: so near to each other, they change from run to run.
+constexpr double kNoise = 0.02;
+
+class Search {
+ public:
+  Search(const std::vector<Knob>& knobs, const Evaluate& evaluate) : knobs_(knobs), evaluate_(evaluate) {}
+
+  // Starts at these settings. False: they could not be measured, and error() says why.
+  bool start(const Settings& settings) {
+    const Cost* cost = measured(settings);
+    if (cost == nullptr) return false;
+    best_ = settings, cost_ = *cost;
+    return true;
+  }
+  // Takes the turn that is `before` all others, of those that are `allowed`; again and again while there is one.
+  template <class Allowed, class Before>
+  bool climb(const Allowed& allowed, const Before& before) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      const Settings from = best_;
+      const Cost was = cost_;
+      for (const Knob& knob : knobs_) {
+        if (!knob.absent.empty()) continue;
+        for (const KnobChoice& choice : knob.choices) {
+          Settings turned = from;
+          choice.set(turned);
+          const Cost* cost = measured(turned);
+          if (cost == nullptr) return false;
+          if (!allowed(*cost, was) || (moved && !before(*cost, cost_))) continue;
+          best_ = turned, cost_ = *cost, moved = true;
+        }
+      }
+    }
+    return true;
+  }
+  const Cost& cost() const { return cost_; }
+  const Error& error() const { return error_; }
+  Tuned result(bool kept) const { return {best_, cost_, static_cast<int>(known_.size()), kept}; }
+
+ private:
+  const Cost* measured(const Settings& settings) {
+    std::string key;
+    for (const auto& [name, value] : settings_words(settings)) key += name + "=" + value + " ";
+    if (const auto found = known_.find(key); found != known_.end()) return &found->second;
+    const Result<Cost> cost = evaluate_(settings);
+    if (!cost) return error_ = cost.error(), nullptr;
+    return &known_.emplace(key, cost.value()).first->second;
+  }
+
+  const std::vector<Knob>& knobs_;
+  const Evaluate& evaluate_;
+  std::map<std::string, Cost> known_;
+  Settings best_;
+  Cost cost_;
+  Error error_;
+};
+
+bool errs_less(const Cost& a, const Cost& b) { return a.error != b.error ? a.error < b.error : a.ms < b.ms; }
+bool faster(const Cost& a, const Cost& b) { return a.ms != b.ms ? a.ms < b.ms : a.error < b.error; }
+
+}  // namespace
+
+Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, const TuneGoal& goal, const Evaluate& evaluate) {
+  Search search(knobs, evaluate);
+  const double budget = goal.budget;
+  if (goal.by_time) {
+    Settings cheapest = settings;
+    for (const Knob& knob : knobs) knob.choices[0].set(cheapest);
+    if (!search.start(cheapest)) return search.error();
+    // Techniques that cost most where they are useless (textures off are no faster everywhere): the way down comes first.
+    if (search.cost().ms > budget &&
+        !search.climb([](const Cost& c, const Cost& was) { return c.ms < (1 - kNoise) * was.ms; }, faster))
+      return search.error();
+    if (search.cost().ms > budget) return search.result(false);
+    if (!search.climb([&](const Cost& c, const Cost& was) { return c.ms <= budget && c.error < was.error; }, errs_less))
+      return search.error();
+    return search.result(true);
+  }
+  if (!search.start(plain_settings(knobs, settings))) return search.error();
+  if (search.cost().error > budget &&
+      !search.climb([&](const Cost& c, const Cost& was) { return was.error > budget && c.error < was.error; }, errs_less))
+    return search.error();
+  if (search.cost().error > budget) return search.result(false);
+  if (!search.climb([&](const Cost& c, const Cost& was) { return c.error <= budget && c.ms < (1 - kNoise) * was.ms; }, faster))
+    return search.error();
+  return search.result(true);
+}
+
+}  // namespace spanray::demo

@@ -1,0 +1,33 @@
+// The cheapest settings that keep a budget: a search over the knobs (knobs.h).
+#pragma once
+#include <functional>
+#include <map>
+#include <string>
+
+#include "knobs.h"
+#include "pareto.h"
+
+namespace spanray::demo {
+
+struct TuneGoal {
+  bool by_time = true;  // budget is a bound on Cost::ms, and the error is to be least; else the other way around
+  double budget = 0;
+};
+
+struct Tuned {
+  Settings settings;
+  Cost cost;
+  int tried = 0;      // settings that were measured
+  bool kept = false;  // the budget; else these are the settings that came nearest to it
+};
+
+// Measures settings: milliseconds, and an error of which less is better. Asked once for each.
+using Evaluate = std::function<Result<Cost>(const Settings&)>;
+
+// Turns one knob at a time, that which helps most, until none does. By time: from every knob at its cheapest upward, staying
+// within the budget. By error: from every technique exact, downward; where one sample a pixel does not keep the bound, upward
+// first. It finds what no single turn improves, which need not be the best of all combinations. settings: what is not a knob.
+// Errors: those of `evaluate`.
+Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, const TuneGoal& goal, const Evaluate& evaluate);
+
+}  // namespace spanray::demo
