@@ -74,7 +74,7 @@ void add(std::vector<Candidate>& list, const std::string& id, const std::string&
 
 // All that is cheap; then one knob after the other at its exact choice, in order of the table.
 void add_ladder(std::vector<Candidate>& list, const std::vector<Knob>& knobs, Settings settings) {
-  for (const Knob& knob : knobs) knob.choices[0].set(settings);
+  settings = cheapest_settings(knobs, settings);
   add(list, "draft", "draft: every technique at its cheapest", "ladder", settings);
   std::string exact;
   for (const Knob& knob : knobs) {
@@ -123,6 +123,13 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
 
 Settings plain_settings(const std::vector<Knob>& knobs, Settings settings) { return with(knobs, settings, &Knob::plain); }
 Settings exact_settings(const std::vector<Knob>& knobs, Settings settings) { return with(knobs, settings, &Knob::exact); }
+
+Settings cheapest_settings(const std::vector<Knob>& knobs, Settings settings) {
+  settings = plain_settings(knobs, settings);
+  for (const Knob& knob : knobs)
+    if (knob.absent.empty()) knob.choices[0].set(settings);
+  return settings;
+}
 
 std::vector<Candidate> make_candidates(const std::vector<Knob>& knobs, const Settings& settings) {
   std::vector<Candidate> list;

@@ -37,6 +37,8 @@ struct Candidate {
 // Settings with every knob at its plain, or its exact choice.
 Settings plain_settings(const std::vector<Knob>& knobs, Settings settings);
 Settings exact_settings(const std::vector<Knob>& knobs, Settings settings);
+// Every knob that the scene has a use for at its cheapest, the others plain.
+Settings cheapest_settings(const std::vector<Knob>& knobs, Settings settings);
 // First the plain settings; then each choice of each useful knob by itself; then the ladder. No settings twice.
 std::vector<Candidate> make_candidates(const std::vector<Knob>& knobs, const Settings& settings);
 

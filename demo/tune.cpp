@@ -9,7 +9,6 @@
 #include "command.h"
 #include "core/atomic_file.h"
 #include "core/hash.h"
-#include "core/number_text.h"
 #include "frame_options.h"
 #include "metric_limit.h"
 #include "progress_line.h"
@@ -101,9 +100,10 @@ std::string settings_toml(const Job& job, const Settings& settings, const std::s
 }
 
 std::string evidence_text(const Cost& cost, const MetricWord& metric, size_t views, const Settings& s) {
-  return "tuned: " + number_text(cost.ms) + " ms (median of the slowest of " + std::to_string(views) +
-         (views == 1 ? " view" : " views") + "), " + metric.name + " " + number_text(as_error(metric, cost.error)) +
-         " (the worst of them), at " + std::to_string(s.width) + "x" + std::to_string(s.height);
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, "%.4g ms, %s %.5g", cost.ms, metric.name, as_error(metric, cost.error));
+  return std::string("tuned: ") + numbers + " at " + std::to_string(s.width) + "x" + std::to_string(s.height) +
+         (views == 1 ? "" : ", each of the worst of " + std::to_string(views) + " views");
 }
 
 int run_tune(const TuneCommand& command) {

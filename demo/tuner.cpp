@@ -71,9 +71,7 @@ Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, con
   Search search(knobs, evaluate);
   const double budget = goal.budget;
   if (goal.by_time) {
-    Settings cheapest = settings;
-    for (const Knob& knob : knobs) knob.choices[0].set(cheapest);
-    if (!search.start(cheapest)) return search.error();
+    if (!search.start(cheapest_settings(knobs, settings))) return search.error();
     // Techniques that cost most where they are useless (textures off are no faster everywhere): the way down comes first.
     if (search.cost().ms > budget &&
         !search.climb([](const Cost& c, const Cost& was) { return c.ms < (1 - kNoise) * was.ms; }, faster))
