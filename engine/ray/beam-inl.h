@@ -63,6 +63,26 @@ HWY_INLINE uint32_t beam_children(const BvhNode& node, const Beam& beam) {
   return bits;
 }
 
+// The triangles of a leaf that some ray may meet in [0, limit], by their boxes.
+HWY_INLINE uint32_t beam_triangles(const TriangleBlock& block, const Beam& beam) {
+  uint32_t bits = 0;
+  for (int s = 0; s < kBvhWidth; s += kLanes8) {
+    F8 near = f8(0.0f), far = f8(beam.limit);
+    for (int i = 0; i < beam.axes; ++i) {
+      const BeamAxis& a = beam.axis[i];
+      const bool forward = a.near_row < a.far_row;
+      const int k = forward ? a.near_row : a.far_row;
+      const F8 v0 = F8::load(block.vertex[0][k] + s), v1 = F8::load(block.vertex[1][k] + s), v2 = F8::load(block.vertex[2][k] + s);
+      const F8 low = cull_min(cull_min(v0, v1), v2), high = cull_max(cull_max(v0, v1), v2);
+      const F8 to_near = (forward ? low : high) - f8(a.near_origin), to_far = (forward ? high : low) - f8(a.far_origin);
+      near = cull_max(cull_min(to_near * f8(a.inv_least), to_near * f8(a.inv_greatest)), near);
+      far = cull_min(cull_max(to_far * f8(a.inv_least), to_far * f8(a.inv_greatest)), far);
+    }
+    bits |= to_bits(near <= far) << s;
+  }
+  return bits;
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace spanray

@@ -20,6 +20,7 @@ inline constexpr uint32_t kLeafBit = 0x80000000u;
 inline uint32_t leaf_child(uint32_t block, uint32_t triangles) { return kLeafBit | block << 3 | (triangles - 1); }
 inline uint32_t leaf_block(uint32_t child) { return (child & ~kLeafBit) >> 3; }
 inline uint32_t leaf_triangles(uint32_t child) { return (child & 7) + 1; }
+inline uint32_t leaf_lanes(uint32_t child) { return (2u << (child & 7)) - 1; }  // bits of the triangles in their block
 
 // A leaf: one to eight triangles, vertices in the canonical order of the scene. Unused lanes are zero.
 struct alignas(64) TriangleBlock {

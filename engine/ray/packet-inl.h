@@ -46,7 +46,6 @@ struct PacketTask {
   const Bvh::Data& data;
   const Batch& batch;
   RayPacket p;
-  PacketLanes lanes;
   int first = 0;  // ray of lane 0
 
   PacketTask(const Bvh::Data& tree, const Batch& rays) : data(tree), batch(rays) {}
@@ -55,20 +54,31 @@ struct PacketTask {
   HWY_INLINE void start(int at) {
     first = at;
     prepare_packet(data, batch.rays, at, batch.rays.count - at < kLanes ? batch.rays.count - at : kLanes, p);
-    if (p.valid != 0) store_lanes(p, lanes);
+    lanes_stored_ = false;
+  }
+
+  // The rays one by one. Most packets never ask.
+  HWY_INLINE const PacketLanes& lanes() {
+    if (!lanes_stored_) store_lanes(p, lanes_);
+    lanes_stored_ = true;
+    return lanes_;
   }
 
   // Of some rays, those whose hit the surface takes.
-  HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) const {
+  HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) {
     if (batch.takes_all(primitive)) return rays;
     uint32_t taken = 0;
     for (; rays != 0; rays &= rays - 1) {
       const int i = std::countr_zero(rays);
-      const float origin[3] = {lanes.origin[0][i], lanes.origin[1][i], lanes.origin[2][i]};
+      const float origin[3] = {lanes().origin[0][i], lanes().origin[1][i], lanes().origin[2][i]};
       taken |= static_cast<uint32_t>(batch.accepts(first + i, origin, primitive)) << i;
     }
     return taken;
   }
+
+ private:
+  PacketLanes lanes_;
+  bool lanes_stored_ = false;
 };
 
 // All rays of a packet down the tree; Packet is one of the two below.
@@ -95,17 +105,17 @@ struct AnyPacket : PacketTask {
     for (uint32_t rest = entry.rays; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       LaneRay ray;
-      take_lane(lanes, i, ray);
-      AnyVisitor visitor{batch, ray.exact, first + i, lanes.limit[i]};
+      take_lane(lanes(), i, ray);
+      AnyVisitor visitor{batch, ray.exact, first + i, lanes().limit[i]};
       traverse(data, entry.child, 0.0f, ray, visitor);
       if (visitor.found) alive &= ~(1u << i);
     }
   }
 
-  HWY_INLINE void leaf(AnyEntry entry) {
+  HWY_INLINE void leaf(AnyEntry entry, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(entry.child)];
-    const int triangles = static_cast<int>(leaf_triangles(entry.child));
-    for (int j = 0; j < triangles && (entry.rays & alive) != 0; ++j) {
+    for (uint32_t rest = leaf_lanes(entry.child) & beam_triangles(block, beam); rest != 0 && (entry.rays & alive) != 0; rest &= rest - 1) {
+      const int j = std::countr_zero(rest);
       const LaneHits hits = triangle_lanes<true>(p, block, j);
       const uint32_t primitive = block.primitive[j];
       const uint32_t sure = hits.sure & entry.rays & alive;
@@ -131,7 +141,7 @@ struct AnyPacket : PacketTask {
       if (std::popcount(entry.rays) <= kFewRays) {
         alone(entry);
       } else if ((entry.child & kLeafBit) != 0) {
-        leaf(entry);
+        leaf(entry, beam);
       } else {
         const BvhNode& node = data.nodes[entry.child];
         for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
@@ -167,7 +177,7 @@ struct ClosestPacket : PacketTask {
     for (uint32_t rest = rays; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       LaneRay ray;
-      take_lane(lanes, i, ray);
+      take_lane(lanes(), i, ray);
       ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], round_up(best_t[i])};
       traverse(data, child, near != nullptr ? near[i] : 0.0f, ray, visitor);
       best_t[i] = visitor.best_t, best[i] = visitor.best;
@@ -189,10 +199,10 @@ struct ClosestPacket : PacketTask {
     p.limit = round_up_lanes(after);
   }
 
-  HWY_INLINE void leaf(uint32_t child, uint32_t rays) {
+  HWY_INLINE void leaf(uint32_t child, uint32_t rays, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(child)];
-    const int triangles = static_cast<int>(leaf_triangles(child));
-    for (int j = 0; j < triangles; ++j) {
+    for (uint32_t rest = leaf_lanes(child) & beam_triangles(block, beam); rest != 0; rest &= rest - 1) {
+      const int j = std::countr_zero(rest);
       const uint32_t maybe = triangle_lanes<false>(p, block, j).maybe & rays;
       if (maybe == 0) continue;
       const ExactLanes exact = exact_lanes(p, block, j);
@@ -232,7 +242,7 @@ struct ClosestPacket : PacketTask {
       const uint32_t child = entry.child, active = to_bits(F32::load(entry.near) <= p.limit) & p.valid;
       if (active == 0) continue;
       if (std::popcount(active) <= kFewRays) alone(child, entry.near, active);
-      else if ((child & kLeafBit) != 0) leaf(child, active);
+      else if ((child & kLeafBit) != 0) leaf(child, active, beam);
       else top = push_children<kMixed>(data.nodes[child], beam, stack, top);
     }
   }

@@ -39,13 +39,15 @@ struct RayPacket {
   F32 shear_x32, shear_y32, edge_slope, edge_offset;  // LaneRay
 };
 
-// 2^-e for numbers m * 2^e, m in [1, 2); normal and positive.
-HWY_INLINE F64 scale_to_one(F64 a) {
-  F64 r;
+// 2^e and 2^-e for numbers m * 2^e, m in [1, 2); normal and positive.
+struct ScaleLanes { F64 size, to_one; };
+HWY_INLINE ScaleLanes scale_of(F64 a) {
+  ScaleLanes r;
   for (int h = 0; h < kHalves; ++h) {
     const DDI d;
     const auto exponent = hn::ShiftRight<52>(hn::BitCast(d, a.v[h]));
-    r.v[h] = hn::BitCast(DD(), hn::ShiftLeft<52>(hn::Sub(hn::Set(d, 2046), exponent)));
+    r.size.v[h] = hn::BitCast(DD(), hn::ShiftLeft<52>(exponent));
+    r.to_one.v[h] = hn::BitCast(DD(), hn::ShiftLeft<52>(hn::Sub(hn::Set(d, 2046), exponent)));
   }
   return r;
 }
@@ -137,8 +139,9 @@ HWY_INLINE void prepare_packet(const Bvh::Data& data, const RayBatch& rays, int 
   RawRays r = load_raw(rays, first, n);
   p.valid = mend_raw(r);
   if (p.valid == 0) return;
-  const F64 scale = scale_to_one(to_f64(r.largest));
-  p.t_max = to_f64(r.t_max) / scale;
+  const ScaleLanes scales = scale_of(to_f64(r.largest));
+  const F64 scale = scales.to_one;
+  p.t_max = to_f64(r.t_max) * scales.size;  // a power of two: exact, as the division
   p.limit = round_up_lanes(p.t_max);
   p.mixed_axes = 0;
   F32 m = F32::zero();

@@ -66,8 +66,8 @@ void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
     for (uint32_t rest = packet.p.valid; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       LaneRay ray;
-      take_lane(packet.lanes, i, ray);
-      AllVisitor visitor{batch, ray.exact, first + i, packet.lanes.limit[i], out};
+      take_lane(packet.lanes(), i, ray);
+      AllVisitor visitor{batch, ray.exact, first + i, packet.lanes().limit[i], out};
       traverse(data, 0, 0.0f, ray, visitor);
     }
   }

@@ -119,7 +119,7 @@ template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& blo
 template <class Visitor>
 HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
   const TriangleBlock& block = data.blocks[leaf_block(child)];
-  const uint32_t used = (2u << (leaf_triangles(child) - 1)) - 1;
+  const uint32_t used = leaf_lanes(child);
   const Candidates found = candidates<Visitor::kAny>(block, ray, visitor.limit);
   if constexpr (Visitor::kAny)
     for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
