@@ -15,15 +15,6 @@ glm::dvec3 position(const SceneData& scene, uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
-// The sign of a_x b_y - a_y b_x, exactly: products that round to different numbers are in that order, and of equal ones fma
-// gives what rounding took away.
-int turn(double ax, double ay, double bx, double by) {
-  const double p = ax * by, q = ay * bx;
-  if (p != q) return p > q ? 1 : -1;
-  const double rest_p = std::fma(ax, by, -p), rest_q = std::fma(ay, bx, -q);
-  return rest_p > rest_q ? 1 : rest_p < rest_q ? -1 : 0;
-}
-
 }  // namespace
 
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t) {
@@ -37,11 +28,13 @@ bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t) {
     const glm::dvec3 q = v[k] - line.origin;
     px[k] = q[x] - d[x] / d[z] * q[z], py[k] = q[y] - d[y] / d[z] * q[z], depth[k] = q[z] / d[z];
   }
+  // Rounding keeps the order of products: a difference is never of the wrong sign, at worst 0, which counts as the edge, for
+  // both sides.
   bool left = false, right = false;
   for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3, side = turn(px[i], py[i], px[j], py[j]);
-    left |= side > 0, right |= side < 0;
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
     area[k] = px[i] * py[j] - py[i] * px[j], sum += area[k];
+    left |= area[k] > 0, right |= area[k] < 0;
   }
   if (left == right || sum == 0) return false;  // outside, or seen edge-on
   t = (area[0] * depth[0] + area[1] * depth[1] + area[2] * depth[2]) / sum;

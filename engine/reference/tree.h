@@ -14,9 +14,8 @@ struct Line {
 };  // origin + t * direction; the direction has any length
 
 // Does the line meet the triangle, and at which t (of any sign)?
-// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection": vertices sheared so that the line is an axis,
-// then a test in the
-//           plane, whose signs are exact here. Edges and vertices count as inside, for every triangle that has them.
+// Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection": vertices sheared so that the line is an axis, then a
+//           test in the plane, whose signs are never wrong. Edges and vertices count as inside, for every triangle that has them.
 // Contract: no line slips between triangles that share vertices. t lies within the range of the corners.
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
 
