@@ -39,14 +39,14 @@ std::vector<KnobChoice> sample_choices() {
   return choices;
 }
 
-// The reason of the plan's first line of these, if it and all others are not needed.
+// Why the plan needs none of these stages; empty if it needs one.
 std::string absent(const std::vector<PlanLine>& plan, std::initializer_list<const char*> stages) {
   std::string reason;
   for (const char* stage : stages)
     for (const PlanLine& line : plan)
       if (line.stage == stage) {
         if (line.needed) return "";
-        reason += (reason.empty() ? "" : "; ") + line.reason;
+        if (reason.find(line.reason) == std::string::npos) reason += (reason.empty() ? "" : "; ") + line.reason;
       }
   return reason;
 }

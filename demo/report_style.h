@@ -10,11 +10,11 @@ body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(
 h1 { margin: 28px 0 4px; } h2 { margin: 44px 0 8px; border-bottom: 1px solid var(--line); } h3 { margin: 24px 0 6px; }
 p, ul { max-width: 82ch; } .dim { color: var(--dim); } code { font-size: 13px; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13.5px; }
-th, td { padding: 3px 8px; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
+th, td { padding: 3px 6px; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th { background: var(--soft); vertical-align: bottom; font-weight: 600; white-space: normal; } td.text, th.text { text-align: left; white-space: normal; min-width: 150px; }
 tr.group td { text-align: left; background: var(--soft); font-weight: 600; white-space: normal; } tr.group span { font-weight: 400; color: var(--dim); }
 tr.plain td { font-weight: 600; } tr.pick { cursor: pointer; } tr.pick:hover td { background: var(--soft); }
-.front { color: var(--best); font-weight: 600; } td.beaten { color: var(--dim); white-space: normal; text-align: left; min-width: 150px; }
+.front { color: var(--best); font-weight: 600; } td.beaten { color: var(--dim); white-space: normal; text-align: left; min-width: 110px; }
 svg { width: 100%; height: auto; max-width: 900px; } svg text { fill: var(--dim); font-size: 13px; } svg .grid { stroke: var(--line); }
 svg path.front { fill: none; stroke: var(--best); stroke-width: 1.5; } circle.best { fill: var(--best); } circle { cursor: pointer; }
 circle.other { fill: var(--paper); stroke: var(--other); stroke-width: 2; } svg .number { fill: var(--best); font-weight: 700; }

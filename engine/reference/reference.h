@@ -11,7 +11,7 @@ namespace spanray {
 struct ReferenceOptions {
   int threads = 0;  // 0: one per processor; changes no value
   // Samples a pixel: 0, as many as the settings say, in their pattern, each shaded on its own (Antialiasing::kSupersample,
-  // whatever the settings ask); n from 1 to 64, a regular grid of n x n.
+  // whatever the settings ask); n from 1 to 64, n x n in multi-jittered places.
   int grid = 0;
   std::function<void(double fraction)> progress = {};  // called now and then, by one thread at a time; may be empty
 };
