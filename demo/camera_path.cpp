@@ -21,9 +21,9 @@ Camera camera_at(const std::vector<CameraKey>& keys, double time) {
   return camera;
 }
 
-Camera camera_of_frame(const std::vector<CameraKey>& keys, int index, int count) {
+double time_of_frame(const std::vector<CameraKey>& keys, int index, int count) {
   const double first = keys.front().time, length = keys.back().time - first;
-  return camera_at(keys, count > 1 ? first + length * index / (count - 1) : first);
+  return count > 1 ? first + length * index / (count - 1) : first;
 }
 
 }  // namespace spanray::demo

@@ -10,7 +10,7 @@ namespace spanray::demo {
 // in order of time.
 Camera camera_at(const std::vector<CameraKey>& keys, double time);
 
-// The camera of frame `index` of `count` spread evenly over the whole path, the first and the last key included.
-Camera camera_of_frame(const std::vector<CameraKey>& keys, int index, int count);
+// The time of frame `index` of `count` spread evenly over the whole path, the first and the last key included.
+double time_of_frame(const std::vector<CameraKey>& keys, int index, int count);
 
 }  // namespace spanray::demo

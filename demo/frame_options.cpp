@@ -116,6 +116,13 @@ void FrameOptions::add_to(CLI::App& command) {
   add_word(command, "--filter", &Settings::filter, "Texture filter");
   add_word(command, "--transparency", &Settings::transparency, "How surfaces with opacity below 1 look");
   add_word(command, "--culling", &Settings::culling, "Faces to leave out");
+  const auto time = [this](const std::string& text) {
+    double seconds = 0;
+    if (!parse_number(text, seconds) || std::fabs(seconds) > kMostSeconds)
+      throw CLI::ValidationError("--time", "'" + text + "' is not a number of seconds from -1e6 to 1e6");
+    changes_.push_back([seconds](Settings& settings) { settings.time = seconds; });
+  };
+  command.add_option_function<std::string>("--time", time, "Seconds: where moving parts stand")->type_name("S");
   const auto samples = [this](const std::string& text) {
     int count = 0;
     if (!parse_number(text, count) || !sample_count_ok(count))

@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "frame_options.h"
 #include "scene/scene_data.h"
+#include "scene/text_input.h"
 #include "stats_json.h"
 
 namespace spanray::demo {
@@ -30,6 +31,8 @@ void print_json(const Job& job, const std::string& path, const std::vector<PlanL
   out["lights"] = scene.lights.size();
   out["cameras"] = scene.camera_names;
   out["camera_path_keys"] = scene.camera_path.size();
+  out["moving_parts"] = nlohmann::ordered_json::array();
+  for (const Motion& motion : scene.motions) out["moving_parts"].push_back(motion.part);
   out["bounds"] = {{"min", scene.bounds_min}, {"max", scene.bounds_max}};
   for (const auto& [key, value] : settings_words(job.settings)) out["settings"][key] = value;
   out["messages"] = job.messages;
@@ -54,6 +57,9 @@ void print_text(const Job& job, const std::string& path, const std::vector<PlanL
   if (!scene.camera_path.empty())
     std::printf("%-12s %zu keys, %g s to %g s\n", "camera path", scene.camera_path.size(), scene.camera_path.front().time,
                 scene.camera_path.back().time);
+  if (!scene.motions.empty()) std::printf("%-12s %zu:", "moving parts", scene.motions.size());
+  for (const Motion& motion : scene.motions) std::printf(" %s", spanray::quoted(motion.part).c_str());
+  if (!scene.motions.empty()) std::printf("\n");
   std::printf("\nsettings\n");
   for (const auto& [key, value] : settings_words(job.settings)) std::printf("  %-14s %s\n", key.c_str(), value.c_str());
   if (!job.messages.empty()) std::printf("\nmessages\n");

@@ -35,6 +35,7 @@ std::vector<std::pair<std::string, std::string>> settings_words(const Settings& 
           {"culling", enum_text(s.culling)},
           {"samples", std::to_string(s.samples)},
           {"antialiasing", enum_text(s.antialiasing)},
+          {"time", number_text(s.time)},
           {"textures", s.textures ? "on" : "off"},
           {"bump", s.bump ? "on" : "off"}};
 }

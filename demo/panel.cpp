@@ -152,6 +152,8 @@ void draw_times(const WalkSession& session) {
   for (const auto& stage : kStages) {
     const double ms = middle(stage.time);
     if (stage.time == &StageTimes::frame || stage.time == &StageTimes::bvh_build) continue;
+    const bool of_motion = stage.time == &StageTimes::pose || stage.time == &StageTimes::bvh_refit;
+    if (of_motion && session.scene().data().motions.empty()) continue;
     ImGui::TextDisabled("%s", stage.name);
     std::snprintf(text, sizeof text, "%8.2f", ms);
     ImGui::SameLine(labels() - 12);
@@ -190,6 +192,16 @@ void draw_camera(WalkSession& session, const PanelInput& input, PanelAction& act
     ImGui::PushID(static_cast<int>(i));
     if (choice(names[i].substr(0, 32).c_str(), false, i == 0)) action.camera = static_cast<int>(i);
     ImGui::PopID();
+  }
+  if (!session.scene().data().motions.empty()) {
+    label("time");
+    action.clock = choice(input.clock_runs ? "pause" : "go on", input.clock_runs, true);
+    ImGui::SameLine(0, 4);
+    ImGui::SetNextItemWidth(-1);
+    const double least = -kMostSeconds, most = kMostSeconds;
+    double time = session.settings().time;
+    if (ImGui::DragScalar("##time", ImGuiDataType_Double, &time, 0.02f, &least, &most, "%.2f s", ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp))
+      action.time = time;
   }
   if (input.path.empty()) return;
   label("path");

@@ -18,12 +18,15 @@ struct PanelInput {
   double path_time = 0;                // seconds since the path's first key
   bool pointed = false;                // the next is known: the pointer was over the picture, and the tree is there
   std::optional<RayHit> under = {};    // what it pointed at
+  bool clock_runs = false;             // of the scene's moving parts
 };
 struct PanelAction {
   bool changed = false;     // settings or view of the session
   int camera = -1;          // jump to this one of the scene's cameras
   bool play = false;        // start or stop the path
   double path_time = -1;    // go to this second of the path
+  bool clock = false;       // start or stop the moving parts
+  std::optional<double> time;  // put them where they stand at this second
 };
 
 PanelAction draw_panel(WalkSession& session, const PanelInput& input);

@@ -23,6 +23,7 @@ struct RenderOptions {
   std::string out, stats, ladder, radiance, depth;
   View view = View::kColor;
   int frames = 1, warmup = 0;
+  double time_step = 0;  // seconds from frame to frame
   bool hash = false, ids_hash = false;
 
   // The files that will be written.
@@ -80,7 +81,10 @@ Result<Measurement> measure(const Job& job, const RenderOptions& options, Frameb
     add_request(options.view, request);
     // Only the last frame climbs the ladder: hashing costs time that does not belong to the others.
     if (!options.ladder.empty() && frame + 1 == options.warmup + options.frames) request.ladder = &ladder;
-    Result<FrameStats> stats = renderer.render(job.scene, job.camera, job.settings, picture, request);
+    // The frames before the measured ones come before them in time, too: trees have followed the motion already.
+    Settings settings = job.settings;
+    settings.time += options.time_step * (frame - options.warmup);
+    Result<FrameStats> stats = renderer.render(job.scene, job.camera, settings, picture, request);
     if (!stats) return stats.error();
     if (stats.value().ms.bvh_build > 0) measured.bvh_builds.push_back(stats.value().ms.bvh_build);
     if (frame >= options.warmup) measured.frames.push_back(std::move(stats.value()));
@@ -121,6 +125,7 @@ int render(const RenderOptions& options) {
   if (!measured) return fail(measured.error());
   for (const std::string& text : measured.value().frames.back().warnings) message("warning: " + text);
   const Image shown = view_picture(options.view, job.value().scene, job.value().camera, picture);
+  job.value().settings.time += options.time_step * (options.frames - 1);  // of the picture
   if (auto written = write_outputs(job.value(), options, picture, shown, ladder, measured.value()); !written)
     return fail(written.error());
   if (options.hash) std::printf("%s\n", hash_text(hash_image(shown)).c_str());
@@ -146,6 +151,8 @@ void add_render(CLI::App& app, Run& run) {
   command->add_option_function<std::string>("--view", view, "What the picture shows")->type_name(view_choices());
   command->add_option("--frames", options->frames, "Frames to render and measure")->check(CLI::Range(1, kMaxFrames))->type_name("N");
   command->add_option("--warmup", options->warmup, "Frames before them, not measured")->check(CLI::Range(0, kMaxFrames))->type_name("N");
+  command->add_option("--time-step", options->time_step, "Seconds from one frame to the next; the picture is the last one")
+      ->check(CLI::Range(-kMostSeconds, kMostSeconds))->type_name("S");
   command->add_option("--stats", options->stats, "Times, counts, plan; - for standard output")->type_name("F.json");
   command->add_flag("--hash", options->hash, "Print the hash of the picture's pixels");
   command->add_flag("--ids-hash", options->ids_hash, "Print the hash of the primitive that each pixel sees");

@@ -9,7 +9,8 @@ namespace spanray::demo {
 inline constexpr struct {
   const char* name;
   double StageTimes::*time;
-} kStages[] = {{"transform", &StageTimes::transform},   {"clip", &StageTimes::clip},
+} kStages[] = {{"pose", &StageTimes::pose},             {"bvh_refit", &StageTimes::bvh_refit},
+               {"transform", &StageTimes::transform},   {"clip", &StageTimes::clip},
                {"bin", &StageTimes::bin},               {"raster", &StageTimes::raster},
                {"shade", &StageTimes::shade},           {"shadow_rays", &StageTimes::shadow_rays},
                {"bounce_rays", &StageTimes::bounce_rays}, {"composite", &StageTimes::composite},

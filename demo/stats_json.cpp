@@ -26,6 +26,13 @@ Json stats_json(const Job& job, const Measurement& measured, uint64_t picture_ha
   const FrameStats& last = measured.frames.back();
   out["counts"] = Json::object();
   for (const auto& [name, value] : last.counts) out["counts"][name] = value;
+  // Of all measured frames: how often trees followed moving parts by a refit, and how often they were built anew.
+  uint64_t refits = 0, rebuilds = 0;
+  for (const FrameStats& frame : measured.frames)
+    for (const auto& [name, value] : frame.counts)
+      if (name == "bvh_refits") refits += value;
+      else if (name == "bvh_rebuilds") rebuilds += value;
+  out["trees"] = {{"refits", refits}, {"rebuilds", rebuilds}};
   out["memory_bytes"] = last.memory_bytes;
   out["isa"] = last.isa;
   out["threads"] = last.threads;

@@ -41,7 +41,7 @@ std::vector<TunedView> find_views(const Job& job, const TuneCommand& command) {
   std::vector<TunedView> views;
   const std::vector<CameraKey>& path = job.scene.data().camera_path;
   if (path.empty() || command.frame.camera_given()) return {{job.camera, {}}};
-  for (int i = 0; i < command.views; ++i) views.push_back({camera_of_frame(path, i, command.views), {}});
+  for (int i = 0; i < command.views; ++i) views.push_back({camera_at(path, time_of_frame(path, i, command.views)), {}});
   return views;
 }
 
@@ -89,7 +89,7 @@ std::string settings_toml(const Job& job, const Settings& settings, const std::s
   for (const auto& [key, value] : settings_words(settings)) {
     if (key == "size")
       text += "width = " + std::to_string(settings.width) + "\nheight = " + std::to_string(settings.height) + "\n";
-    else if (key == "max_bounces" || key == "samples")
+    else if (key == "max_bounces" || key == "samples" || key == "time")
       text += key + " = " + value + "\n";
     else if (key == "textures" || key == "bump")
       text += key + " = " + (value == "on" ? "true" : "false") + "\n";

@@ -1,4 +1,5 @@
 // spanray walk: fly through a scene, in a window; or play its camera path and measure it.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -64,7 +65,10 @@ int play(const WalkOptions& options) {
   Framebuffer picture;
   std::vector<double> frame_ms;
   for (int i = 0; i < frames; ++i) {
-    const Result<FrameStats> stats = renderer.render(walk.job.scene, camera_of_frame(walk.path, i, frames), walk.job.settings, picture);
+    Settings settings = walk.job.settings;
+    const double time = time_of_frame(walk.path, i, frames);
+    settings.time = std::clamp(time, -kMostSeconds, kMostSeconds);
+    const Result<FrameStats> stats = renderer.render(walk.job.scene, camera_at(walk.path, time), settings, picture);
     if (!stats) return fail(stats.error());
     frame_ms.push_back(stats.value().ms.frame);
   }

@@ -57,6 +57,7 @@ const std::vector<WalkSession::Key>& WalkSession::keys() {
                                         {"I", "print what is under the pointer"},
                                         {"C", "the scene's next camera"},
                                         {"L", "play or stop the scene's camera path"},
+                                        {"Space", "stop what moves, or let it go on"},
                                         {"P", "print the camera, for render --camera"},
                                         {"F12", "save the picture"},
                                         {"F1 F2", "these keys, the panel"},
@@ -104,8 +105,9 @@ Result<bool> WalkSession::take_frame(int wait_ms) {
 }
 
 const std::vector<PlanLine>& WalkSession::plan() {
-  // Sizes and threads ask for no stage; the words are those of all other settings.
-  const Settings settings = settings_of_view(view_, settings_);
+  // Sizes and threads ask for no stage, nor does the time; the words are those of all other settings.
+  Settings settings = settings_of_view(view_, settings_);
+  settings.time = 0;
   if (plan_.empty() || settings_words(plan_settings_) != settings_words(settings)) {
     plan_ = plan_frame(scene_, settings);
     plan_settings_ = settings;

@@ -82,6 +82,8 @@ class Walk {
   void play();
   void jump(int camera);
   void follow_path(double seconds);
+  void set_time(double seconds);
+  bool things_move() const { return !session_.scene().data().motions.empty(); }
   void order_frame();
   Result<void> take_frame();
   void draw();
@@ -103,6 +105,7 @@ class Walk {
   int camera_index_ = 0;
   bool panel_ = false, help_ = false, hint_, look_ = false;
   bool playing_ = false, moving_ = false;
+  bool clock_runs_ = things_move();  // of the scene's moving parts
   double path_time_ = 0;
   bool dirty_ = true;       // the next frame would look different
   bool title_due_ = false;
@@ -115,7 +118,7 @@ class Walk {
 
 int Walk::wait_ms() const {
   if (session_.busy()) return 0;  // take_frame() waits
-  if (dirty_ || moving_ || playing_ || frames_ > 0) return 0;
+  if (dirty_ || moving_ || playing_ || clock_runs_ || frames_ > 0) return 0;
   return redraws_ > 0 || title_due_ || hint_ ? static_cast<int>(kDrawSeconds * 1000) : kIdleWaitMs;
 }
 
@@ -148,6 +151,7 @@ bool Walk::handle(const Input& input) {
     else if (key == "F2") panel_ = !panel_;
     else if (key == "C") jump((camera_index_ + 1) % static_cast<int>(session_.scene().cameras().size()));
     else if (key == "L") play();
+    else if (key == "Space") clock_runs_ = !clock_runs_ && things_move();
     else if (key == "F1") show_help(!help_);
     else if (key == "I") print_pointed();
     else if (session_.press(key, camera_.camera())) dirty_ = true;
@@ -178,7 +182,10 @@ void Walk::fly(const Input& input) {
   camera_.turn(input.mouse_dx, input.mouse_dy);
   step(input.move_right * way, input.move_up * way, input.move_forward * way);
   dirty_ |= moving_ || turns;
-  if (!playing_) return;
+  if (!playing_) {
+    if (clock_runs_) set_time(session_.settings().time + seconds);
+    return;
+  }
   follow_path(path_time_ + seconds);
   playing_ = path_time_ < path_length();
 }
@@ -231,15 +238,26 @@ void Walk::jump(int camera) {
   playing_ = false, dirty_ = true;
 }
 
+// The scene moves as its camera path has it.
 void Walk::follow_path(double seconds) {
   path_time_ = std::clamp(seconds, 0.0, path_length());
   camera_ = FlyCamera(camera_at(path_, path_.front().time + path_time_));
+  if (things_move()) set_time(path_.front().time + path_time_);
+  dirty_ = true;
+}
+
+void Walk::set_time(double seconds) {
+  session_.settings().time = std::clamp(seconds, -kMostSeconds, kMostSeconds);
   dirty_ = true;
 }
 
 void Walk::order_frame() {
   dirty_ = false;
-  session_.start_frame(options_.play ? camera_of_frame(path_, shown_, frames_) : camera_.camera());
+  if (!options_.play) return session_.start_frame(camera_.camera());
+  const double time = time_of_frame(path_, shown_, frames_);
+  set_time(time);
+  dirty_ = false;
+  session_.start_frame(camera_at(path_, time));
 }
 
 Result<void> Walk::take_frame() {
@@ -278,10 +296,13 @@ void Walk::draw_ui() {
   if (panel) {
     PanelInput input{camera_.camera(), path_, playing_, path_time_};
     input.pointed = point_at(input.under);
+    input.clock_runs = clock_runs_;
     const PanelAction action = draw_panel(session_, input);
     dirty_ |= action.changed;
     if (action.camera >= 0) jump(action.camera);
     if (action.play) play();
+    if (action.clock) clock_runs_ = !clock_runs_;
+    if (action.time) set_time(*action.time);
     if (action.path_time >= 0) playing_ = false, follow_path(action.path_time);
   }
   if (help_) draw_help(panel);

@@ -9,7 +9,7 @@
 #include "core/hash.h"
 #include "frame_options.h"
 #include "render/trace_pixel.h"
-#include "scene/scene_data.h"
+#include "scene/pose.h"
 #include "spanray/settings_text.h"
 #include "spanray/stats.h"
 
@@ -190,7 +190,8 @@ int why(const WhyOptions& options) {
               hash_text(job.scene.hash()).c_str(), kNumericContract);
   for (const auto& [key, value] : settings_words(job.settings)) std::printf("%s=%s ", key.c_str(), value.c_str());
   std::printf("\n");
-  for (const SlotTrace& slot : trace.slots) print_slot(trace, slot, job.scene.data());
+  const Scene standing = scene_at(job.scene, job.settings.time);
+  for (const SlotTrace& slot : trace.slots) print_slot(trace, slot, standing.data());
   std::printf("pixel\n");
   row(2, "radiance", trace.radiance);
   std::printf("  %-24s %d %d %d %d\n", "bytes", trace.rgba[0], trace.rgba[1], trace.rgba[2], trace.rgba[3]);

@@ -93,11 +93,11 @@ TEST(CameraPath, PassesThroughItsKeysAndHoldsItsEnds) {
   EXPECT_TRUE(same_bits(keys.front().camera, camera_at(keys, std::nan(""))));
   EXPECT_EQ(15, camera_at(keys, 3.5).eye[0]);  // half way from key 1 (time 2) to key 2 (time 5)
   EXPECT_EQ(41.5, camera_at(keys, 3.5).fov_y_degrees);
-  EXPECT_TRUE(same_bits(keys.front().camera, camera_of_frame(keys, 0, 7)));
-  EXPECT_TRUE(same_bits(keys.back().camera, camera_of_frame(keys, 6, 7)));
-  EXPECT_TRUE(same_bits(keys.front().camera, camera_of_frame(keys, 0, 1)));
+  EXPECT_TRUE(same_bits(keys.front().camera, camera_at(keys, time_of_frame(keys, 0, 7))));
+  EXPECT_TRUE(same_bits(keys.back().camera, camera_at(keys, time_of_frame(keys, 6, 7))));
+  EXPECT_TRUE(same_bits(keys.front().camera, camera_at(keys, time_of_frame(keys, 0, 1))));
   const std::vector<CameraKey> one = {keys[2]};
-  EXPECT_TRUE(same_bits(keys[2].camera, camera_of_frame(one, 3, 5)));
+  EXPECT_TRUE(same_bits(keys[2].camera, camera_at(one, time_of_frame(one, 3, 5))));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ SceneFiles make_spheres();
 SceneFiles make_columns();
 SceneFiles make_gauze();
 SceneFiles make_glass();
+SceneFiles make_orrery();
 
 // The gallery hall with about `triangles` (within 20 %; 10 thousand to 10 million).
 inline constexpr double kHallTriangles = 80e3;  // as shipped

@@ -20,7 +20,20 @@ template <class T> class AlignedBuffer {
   AlignedBuffer& operator=(AlignedBuffer&& o) noexcept { swap(o); return *this; }
   AlignedBuffer(const AlignedBuffer&) = delete;
   AlignedBuffer& operator=(const AlignedBuffer&) = delete;
-  ~AlignedBuffer() { std::free(data_); }
+  ~AlignedBuffer() { release(); }
+
+  // Another name for the elements of o, which must outlive it; they must not be written through it. It holds no memory of its own
+  // until it grows.
+  static AlignedBuffer borrow(const AlignedBuffer& o) {
+    AlignedBuffer b;
+    b.data_ = o.data_, b.size_ = b.capacity_ = o.size_, b.borrowed_ = true;
+    return b;
+  }
+  static AlignedBuffer copy(const AlignedBuffer& o) {
+    AlignedBuffer b(o.size_);
+    if (o.size_ > 0) std::memcpy(static_cast<void*>(b.data_), o.data_, o.size_ * sizeof(T));
+    return b;
+  }
 
   // Keeps the first min(size, n) elements; new elements are not initialised. Throws std::bad_alloc.
   void resize(size_t n) {
@@ -34,9 +47,10 @@ template <class T> class AlignedBuffer {
     if (p == nullptr) throw std::bad_alloc();
     if (size_ > 0) std::memcpy(static_cast<void*>(p), data_, size_ * sizeof(T));
     std::memset(static_cast<void*>(p + n), 0, bytes - n * sizeof(T));
-    std::free(data_);
+    release();
     data_ = p;
     capacity_ = n;
+    borrowed_ = false;
   }
   void assign(size_t n, const T& value) {
     resize(n);
@@ -52,7 +66,7 @@ template <class T> class AlignedBuffer {
   const T* data() const { return data_; }
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  size_t bytes() const { return capacity_ * sizeof(T); }
+  size_t bytes() const { return borrowed_ ? 0 : capacity_ * sizeof(T); }
   T& operator[](size_t i) { return data_[i]; }
   const T& operator[](size_t i) const { return data_[i]; }
   T* begin() { return data_; }
@@ -63,11 +77,16 @@ template <class T> class AlignedBuffer {
     std::swap(data_, o.data_);
     std::swap(size_, o.size_);
     std::swap(capacity_, o.capacity_);
+    std::swap(borrowed_, o.borrowed_);
   }
 
  private:
+  void release() {
+    if (!borrowed_) std::free(data_);
+  }
   T* data_ = nullptr;
   size_t size_ = 0, capacity_ = 0;
+  bool borrowed_ = false;
 };
 
 }  // namespace spanray

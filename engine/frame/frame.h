@@ -14,7 +14,7 @@ namespace spanray {
 // What the frame needs, each with its reason (render/plan.cpp fills it; `spanray info` prints it). A stage whose flag is off
 // allocates nothing and runs nothing.
 struct PlanFlags {
-  bool raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
+  bool motion = false, raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
   uint32_t maps = 0;  // MaterialMaps that some material has
@@ -89,6 +89,7 @@ struct FrameCounts {
   uint64_t pixels_covered = 0, surfaces_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
   uint64_t vertices_lit = 0;
+  uint64_t bvh_refits = 0, bvh_rebuilds = 0;  // trees that followed moving parts: of the second kind, those built anew
 
   void add(const TileHits& tile) {
     tile_triangles += tile.triangles, tile_triangles_hidden += tile.triangles_hidden, samples_passed += tile.passed;

@@ -19,6 +19,7 @@ class Bvh {
   size_t primitive_count() const;
 
  private:
+  friend class BvhRefit;  // ray/bvh_refit.h
   friend Bvh build_bvh(const SceneData&, const uint32_t*, uint32_t, uint32_t, Parallel&);
   std::unique_ptr<Data> data_;
 };

@@ -9,6 +9,7 @@
 #include "frame/samples.h"
 #include "reference/light.h"
 #include "scene/default_view.h"
+#include "scene/pose.h"
 
 namespace spanray {
 namespace reference {
@@ -185,6 +186,7 @@ Result<void> check(const SceneData& scene, const Settings& settings, int grid) {
   constexpr int kMaxSide = 16384, kMaxGrid = 64;
   if (settings.width < 1 || settings.height < 1 || settings.width > kMaxSide || settings.height > kMaxSide)
     return Error{"reference: a picture has 1 to 16384 pixels a side"};
+  if (!(std::fabs(settings.time) <= kMostSeconds)) return Error{"reference: the time is at most 1e6 seconds either way"};
   if (!sample_count_ok(settings.samples) || grid < 0 || grid > kMaxGrid)
     return Error{"reference: that number of samples is not possible"};
   for (size_t i = 0; i < scene.materials.size(); ++i)
@@ -203,7 +205,8 @@ Result<void> render_reference(const Scene& scene, const Camera& camera, const Se
                               const ReferenceOptions& options, Framebuffer& out) {
   if (!scene.valid()) return Error{"reference: there is no scene"};
   if (Result<void> checked = reference::check(scene.data(), settings, options.grid); !checked) return checked;
-  const reference::Renderer renderer(scene.data(), camera, settings, options.grid);
+  const Scene standing = scene_at(scene, settings.time);
+  const reference::Renderer renderer(standing.data(), camera, settings, options.grid);
   const size_t width = static_cast<size_t>(settings.width), pixels = width * static_cast<size_t>(settings.height);
   out = {};
   out.color.width = settings.width, out.color.height = settings.height;

@@ -42,6 +42,7 @@ Result<void> check_request(const Scene& scene, const Camera& camera, const Setti
   if (s.max_bounces < 0 || s.max_bounces > kMaxBounces)
     return out_of_range("number of bounces", std::to_string(s.max_bounces), "0 to " + std::to_string(kMaxBounces));
   if (!sample_count_ok(s.samples)) return out_of_range("number of samples a pixel", std::to_string(s.samples), "1, 4, 8 or 16");
+  if (!(std::fabs(s.time) <= kMostSeconds)) return out_of_range("time", number_text(s.time), "at most 1e6 seconds either way");
   if (!isa_supported(resolve_isa(s.isa))) return Error{"this processor does not have the instruction set " + std::string(isa_name(s.isa))};
   return check_camera(camera);
 }

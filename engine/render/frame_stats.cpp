@@ -53,7 +53,9 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"rays_shadow", c.rays_shadow},
                   {"rays_bounce", c.rays_bounce},
                   {"rays_translucent", c.rays_translucent},
-                  {"vertices_lit", c.vertices_lit}};
+                  {"vertices_lit", c.vertices_lit},
+                  {"bvh_refits", c.bvh_refits},
+                  {"bvh_rebuilds", c.bvh_rebuilds}};
   if (c.triangles_invalid > 0)
     stats.warnings.push_back(counted(c.triangles_invalid, "triangle was", "triangles were") + " dropped: the projection is not finite");
 }

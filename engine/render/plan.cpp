@@ -81,6 +81,11 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   PlanFlags& f = plan.flags;
   Lines lines(plan.lines);
 
+  uint64_t moving = 0;
+  for (const MovingRun& run : scene.moving_triangles) moving += run.count;
+  const int parts = static_cast<int>(scene.motions.size());
+  f.motion = lines.add("pose", true, "", parts, counted(static_cast<uint64_t>(parts), "moving part", "moving parts") + " with " + counted(moving, "triangle", "triangles"),
+                       "nothing moves");
   f.raster = lines.add("transform, clip, bin, raster", raster, "visibility is by rays", use.any_triangle,
                        "visibility is by rasterization", "the scene has no triangle");
   f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_triangle, "visibility is by rays",
@@ -113,6 +118,8 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                              "no material is translucent");
   f.bvh = lines.add("BVH", f.shadow_rays || f.bounces || f.primary_rays, "no ray is traced", use.any_triangle, "rays are traced",
                     "the scene has no triangle");
+  lines.add("BVH refit", f.bvh, "no ray is traced", parts, "trees follow the moving parts: boxes anew each frame, built anew where that grew too costly",
+            "nothing moves");
   f.translucent_bvh = lines.add("translucent BVH", f.translucents, "no material is translucent", f.bounces || f.primary_rays,
                                 "rays see translucent surfaces", "only the rasterizer sees translucent surfaces");
   return plan;

@@ -1,29 +1,22 @@
 // The ten-minute walk: everything that happens to a frame, in order. The loop inside a tile is in render/tile.cpp.
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <new>
 
 #include "core/fp_env.h"
+#include "core/timed.h"
 #include "frame/ladder.h"
 #include "raster/raster.h"
 #include "render/check_request.h"
 #include "render/frame_stats.h"
 #include "render/make_frame.h"
 #include "render/plan.h"
+#include "render/ray_trees.h"
 #include "render/tile.h"
+#include "scene/pose.h"
 
 namespace spanray {
 namespace {
-
-double seconds_now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-// Milliseconds that a call takes.
-template <class F> double timed_ms(F&& call) {
-  const double start = seconds_now();
-  call();
-  return (seconds_now() - start) * 1e3;
-}
 
 void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
   Hash hash;
@@ -38,16 +31,16 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
 
 }  // namespace
 
-// What lives from frame to frame: threads, buffers, trees, lit vertices. Trees are rebuilt when the scene or the meaning of its
-// materials changes.
+// What lives from frame to frame: threads, buffers, trees, lit vertices, the scene as it stands now. Trees are rebuilt when the scene or
+// the meaning of its materials changes.
 struct Renderer::Impl {
   std::unique_ptr<Parallel> parallel;
   Scene scene;  // keeps alive what the trees and `use` were made from
   SceneUse use;
-  std::vector<uint32_t> tree_flags;
-  std::unique_ptr<Bvh> opaque, translucent;
+  std::unique_ptr<PosedScene> posed;  // only where something moves
+  uint64_t poses = 0;
+  RayTrees trees;
   std::unique_ptr<LitVertexCache> lit_vertices;
-  double bvh_build_ms = 0;
   ScreenVertices vertices;
   TileBins bins;
   std::vector<std::unique_ptr<TileWorker>> workers;
@@ -57,33 +50,19 @@ struct Renderer::Impl {
       parallel = std::make_unique<Parallel>(threads);
     while (workers.size() < static_cast<size_t>(parallel->threads())) workers.push_back(std::make_unique<TileWorker>());
     if (scene.valid() && &scene.data() == &new_scene.data()) return;
-    opaque.reset(), translucent.reset(), lit_vertices.reset();
-    bvh_build_ms = 0;
+    scene = Scene();  // nothing of it is left, should memory run out below
+    trees.clear(), lit_vertices.reset(), posed.reset();
     use = find_scene_use(new_scene.data());
+    if (!new_scene.data().motions.empty()) posed = std::make_unique<PosedScene>(new_scene.data());
     scene = new_scene;
   }
 
-  // Builds the trees that the plan asks for and that are not there yet.
-  void build_trees(const Plan& plan) {
-    if (tree_flags != plan.material_flags) {
-      opaque.reset(), translucent.reset();
-      bvh_build_ms = 0;
-      tree_flags = plan.material_flags;
-    }
-    const auto build = [&](bool needed, uint32_t value, std::unique_ptr<Bvh>& tree) {
-      if (!needed || tree) return;
-      bvh_build_ms += timed_ms([&] {
-        tree = std::make_unique<Bvh>(build_bvh(scene.data(), tree_flags.data(), kMaterialTranslucent, value, *parallel));
-      });
-    };
-    build(plan.flags.bvh, 0, opaque);
-    build(plan.flags.translucent_bvh, kMaterialTranslucent, translucent);
-  }
+  // The scene as this frame sees it.
+  const SceneData& standing() const { return posed ? posed->data() : scene.data(); }
 
   size_t memory_bytes() const {
-    size_t bytes = vertices.memory_bytes() + bins.memory_bytes();
-    if (opaque) bytes += opaque->memory_bytes();
-    if (translucent) bytes += translucent->memory_bytes();
+    size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + trees.memory_bytes();
+    if (posed) bytes += posed->memory_bytes();
     if (lit_vertices) bytes += lit_vertices->memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
     return bytes;
@@ -96,9 +75,10 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   FrameStats stats;
   const double start = seconds_now();
   const Plan plan = make_plan(scene.data(), use, settings);
-  const double build_ms = timed_ms([&] { build_trees(plan); });
+  if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
+  const RayTrees::Work followed = trees.update(standing(), plan, scene.data().moving_triangles, poses, *parallel);
 
-  const Frame frame = make_frame(scene.data(), camera, settings, plan, *parallel);
+  const Frame frame = make_frame(standing(), camera, settings, plan, *parallel);
   resize_output(settings, request, out);
   if (request.ladder != nullptr) {
     request.ladder->begin(settings.width, settings.height);
@@ -119,13 +99,15 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   else lit_vertices->reset();
 
   for (const auto& w : workers) w->counts = {}, w->clock.reset();
-  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, opaque.get(), translucent.get(), lit_vertices.get(), out, request};
+  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), lit_vertices.get(), out, request};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
   });
 
-  stats.ms.bvh_build = bvh_build_ms;
-  stats.ms.frame = (seconds_now() - start) * 1e3 - build_ms;  // a tree is built once a scene, and stands in bvh_build
+  stats.ms.bvh_refit = followed.refit_ms;
+  stats.ms.bvh_build = trees.build_ms();
+  stats.ms.frame = (seconds_now() - start) * 1e3 - followed.first_build_ms;  // of a scene once; it stands in bvh_build
+  counts.bvh_refits = followed.refits, counts.bvh_rebuilds = followed.rebuilds;
   add_worker_stats(workers, parallel->threads(), counts, stats);
   if (lit_vertices) counts.vertices_lit = lit_vertices->lit_count();
   add_counts(counts, stats);

@@ -11,6 +11,7 @@
 #include "render/make_frame.h"
 #include "render/tile.h"
 #include "render/trace_surface.h"
+#include "scene/pose.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 
@@ -261,7 +262,8 @@ Result<PixelTrace> trace_pixel(const Scene& scene, const Camera& camera, const S
     return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the picture of " +
                  std::to_string(settings.width) + "x" + std::to_string(settings.height)};
   const FpEnvGuard guard;
-  return Tracer(scene, camera, settings, x, y).run();
+  const Scene standing = scene_at(scene, settings.time);
+  return Tracer(standing, camera, settings, x, y).run();
 }
 
 }  // namespace spanray

@@ -5,6 +5,7 @@
 
 #include "core/counted.h"
 #include "math/elementary.h"
+#include "scene/moving_parts.h"
 #include "scene/mtl_library.h"
 #include "scene/obj_mesh.h"
 #include "scene/path_finder.h"
@@ -140,7 +141,7 @@ struct Soup {
   int first_unusable_line = 0;
 };
 
-Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::string& file,
+Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_used, const std::vector<uint32_t>& moving, const std::string& file,
                Messages& messages, const Progress& progress) {
   Soup soup;
   soup.triangles.reserve(mesh.faces.size());
@@ -158,6 +159,7 @@ Soup make_soup(const ObjMesh& mesh, const std::vector<uint32_t>& material_of_use
       for (size_t k = 0; k < 3; ++k) t.corner[k] = vertex_of(mesh, mesh.corners[face.first_corner + corners[i + k]]);
       t.material = material_of_used[face.material];
       t.object = face.object, t.group = face.group;
+      t.motion = moving.empty() ? 0 : moving[index];
       soup.triangles.push_back(t);
     }
   }
@@ -177,7 +179,7 @@ void report(const BuildReport& r, int unusable_line, const std::string& file, Me
 
 }  // namespace
 
-Result<void> load_obj(const std::string& path, const LoadOptions& options, SceneData& scene, Messages& messages) {
+Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, SceneData& scene, Messages& messages) {
   const Progress progress(options.progress);
   const Error stopped{kStopMessage, path};
   if (!progress("opening", 0)) return stopped;
@@ -189,6 +191,9 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
   if (mesh.libraries.size() > kMostLibraries)
     return Error{"more than " + std::to_string(kMostLibraries) + " mtllib statements", path,
                  mesh.libraries[kMostLibraries].line};
+  const Result<std::vector<uint32_t>> motion_of = find_moving_faces(mesh, moving);
+  if (!motion_of) return motion_of.error();
+  scene.motions = moving.motions;
 
   MaterialLoader materials(path, options, scene, messages, progress);
   for (const ObjNamed& library : mesh.libraries) materials.library(library);
@@ -203,7 +208,7 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, Scene
   double sine = 0, cosine = 0;
   sin_cos(options.crease_angle_degrees * (kPi / 180), &sine, &cosine);
   add_missing_normals(mesh, cosine, path, messages);
-  const Soup soup = make_soup(mesh, material_of_used, path, messages, progress);
+  const Soup soup = make_soup(mesh, material_of_used, motion_of.value(), path, messages, progress);
   if (!progress("merging vertices", 0)) return stopped;
   const Result<BuildReport> built = build_geometry(soup.triangles, scene);
   if (!built) return Error{built.error().message, path};

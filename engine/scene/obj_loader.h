@@ -2,14 +2,15 @@
 #pragma once
 #include <string>
 
+#include "scene/moving_parts.h"
 #include "scene/scene_data.h"
 #include "scene/text_input.h"
 #include "spanray/scene.h"
 
 namespace spanray {
 
-// Fills materials, textures and geometry of `scene` (which must be empty). Missing libraries, materials and textures are
+// Fills materials, textures, geometry and motions of `scene` (which must be empty). Missing libraries, materials and textures are
 // warnings. Errors name file, line and cause.
-Result<void> load_obj(const std::string& path, const LoadOptions& options, SceneData& scene, Messages& messages);
+Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, SceneData& scene, Messages& messages);
 
 }  // namespace spanray

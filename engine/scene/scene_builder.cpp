@@ -19,14 +19,14 @@ glm::dvec3 to_dvec(const float* p) { return {p[0], p[1], p[2]}; }
 
 struct VertexKey {
   Vertex vertex;
-  uint32_t material;
+  uint32_t material, motion;
   bool operator==(const VertexKey& o) const {
-    return material == o.material && std::memcmp(&vertex, &o.vertex, sizeof(Vertex)) == 0;
+    return material == o.material && motion == o.motion && std::memcmp(&vertex, &o.vertex, sizeof(Vertex)) == 0;
   }
 };
 struct VertexKeyHash {
   size_t operator()(const VertexKey& k) const {
-    return static_cast<size_t>(Hash().add(&k.vertex, sizeof(Vertex)).add_word(k.material).value());
+    return static_cast<size_t>(Hash().add(&k.vertex, sizeof(Vertex)).add_word(k.material | uint64_t{k.motion} << 32).value());
   }
 };
 
@@ -60,18 +60,14 @@ bool repair_corners(SoupTriangle& t, BuildReport& report) {
   return true;
 }
 
-// Sorts three vertex indices by position; the sign of the permutation tells whether the triangle was mirrored.
-Triangle canonical_triangle(const AlignedBuffer<Vertex>& vertices, const uint32_t index[3], uint32_t material) {
-  Triangle t{{index[0], index[1], index[2]}, material};
-  bool flipped = false;
-  const auto order = [&](int a, int b) {
-    if (!position_less(vertices[t.vertex[b]], vertices[t.vertex[a]])) return;
-    std::swap(t.vertex[a], t.vertex[b]);
-    flipped = !flipped;
-  };
-  order(0, 1), order(1, 2), order(0, 1);
-  if (flipped) t.bits |= kTriangleFlipped;
-  return t;
+// Appends element `index` to the runs of its motion; motion: as in SoupTriangle.
+void add_to_runs(std::vector<MovingRun>& runs, uint32_t index, uint32_t motion) {
+  if (motion == 0) return;
+  if (!runs.empty()) {
+    MovingRun& last = runs.back();
+    if (last.motion == motion - 1 && last.first + last.count == index && last.count < kMostInRun) return void(++last.count);
+  }
+  runs.push_back({index, 1, motion - 1});
 }
 
 template <class T> void hash_vector(Hash& hash, const std::vector<T>& v) {
@@ -83,25 +79,48 @@ template <class T> void hash_buffer(Hash& hash, const AlignedBuffer<T>& v) {
   if (!v.empty()) hash.add(v.data(), v.size() * sizeof(T));
 }
 
+void hash_motions(Hash& hash, const SceneData& scene) {
+  for (const Motion& m : scene.motions) {
+    hash.add_word(static_cast<uint32_t>(m.carrier)).add(m.pivot, sizeof m.pivot).add(m.axis, sizeof m.axis);
+    hash.add(&m.degrees_per_second, sizeof m.degrees_per_second).add_word(m.repeat);
+    hash_vector(hash, m.keys);
+  }
+  hash_vector(hash, scene.moving_vertices);
+  hash_vector(hash, scene.moving_triangles);
+}
+
 }  // namespace
+
+void order_vertices(const AlignedBuffer<Vertex>& vertices, Triangle& t) {
+  const auto order = [&](int a, int b) {
+    if (!position_less(vertices[t.vertex[b]], vertices[t.vertex[a]])) return;
+    std::swap(t.vertex[a], t.vertex[b]);
+    t.bits ^= kTriangleFlipped;
+  };
+  order(0, 1), order(1, 2), order(0, 1);
+}
 
 Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene) {
   BuildReport report;
   scene.vertices.clear();
   scene.triangles.clear();
   scene.parts.clear();
+  scene.moving_vertices.clear();
+  scene.moving_triangles.clear();
   std::unordered_map<VertexKey, uint32_t, VertexKeyHash> index_of;
   index_of.reserve(soup.size());
   bool empty = true;
   for (const SoupTriangle& file_triangle : soup) {
     SoupTriangle t = file_triangle;
     if (t.material >= scene.materials.size()) return Error{"material index " + std::to_string(t.material) + " out of range"};
+    if (t.motion > scene.motions.size()) return Error{"motion " + std::to_string(t.motion) + " out of range"};
     if (!repair_corners(t, report)) continue;
-    uint32_t index[3];
+    Triangle triangle{{}, t.material};
     for (int i = 0; i < 3; ++i) {
-      const auto [it, is_new] = index_of.try_emplace({t.corner[i], t.material}, static_cast<uint32_t>(scene.vertices.size()));
-      index[i] = it->second;
-      if (is_new) scene.vertices.push_back(t.corner[i]);
+      const uint32_t next = static_cast<uint32_t>(scene.vertices.size());
+      const auto [it, is_new] = index_of.try_emplace({t.corner[i], t.material, t.motion}, next);
+      triangle.vertex[i] = it->second;
+      if (is_new) scene.vertices.push_back(t.corner[i]), add_to_runs(scene.moving_vertices, next, t.motion);
       for (int k = 0; k < 3; ++k) {
         const float p = t.corner[i].position[k];
         scene.bounds_min[k] = empty ? p : std::min(scene.bounds_min[k], p);
@@ -109,9 +128,11 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
       }
       empty = false;
     }
+    order_vertices(scene.vertices, triangle);
     if (scene.parts.empty() || scene.parts.back().object != t.object || scene.parts.back().group != t.group)
       scene.parts.push_back({static_cast<uint32_t>(scene.triangles.size()), t.object, t.group});
-    scene.triangles.push_back(canonical_triangle(scene.vertices, index, t.material));
+    add_to_runs(scene.moving_triangles, static_cast<uint32_t>(scene.triangles.size()), t.motion);
+    scene.triangles.push_back(triangle);
     if (scene.vertices.size() > kMostVertices || scene.triangles.size() > kMostTriangles)
       return Error{"the scene is too large: at most 2^27 distinct vertices and 2^28 triangles"};
   }
@@ -130,6 +151,7 @@ void hash_scene(SceneData& scene) {
   hash_buffer(hash, scene.texels);
   hash_vector(hash, scene.lights);
   if (scene.light_follows_eye) hash.add_word(1);
+  if (!scene.motions.empty()) hash_motions(hash, scene);
   hash.add(scene.ambient_radiance, sizeof scene.ambient_radiance).add(scene.background, sizeof scene.background);
   scene.hash = hash.value();
 }

@@ -13,6 +13,7 @@ struct SoupTriangle {
   Vertex corner[3];
   uint32_t material = 0;
   uint32_t object = 0, group = 0;  // names, as in ScenePart
+  uint32_t motion = 0;             // 1 + index into SceneData::motions; 0: stands
 };
 
 // Positions that scenes can hold: finite, each coordinate at most 1e30 like those of cameras, so that what is derived from
@@ -31,9 +32,13 @@ struct BuildReport {
   uint64_t zero_area = 0;           // kept (they cover no pixel), counted
 };
 
-// Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material)
+// Sorts the corners of a triangle into the canonical order (scene_data.h) and keeps its bits right.
+void order_vertices(const AlignedBuffer<Vertex>& vertices, Triangle& triangle);
+
+// Replaces the geometry of `scene` by `soup`: drops and repairs as counted, merges equal (position, normal, uv, material, motion)
 // corners into vertices in order of first use, orders each triangle canonically, keeps the order of triangles, computes bounds and parts.
-// Material indices must be below scene.materials.size(). Errors: too many vertices for 32-bit gathers.
+// Material indices must be below scene.materials.size(), motions at most scene.motions.size(). Errors: too many vertices for 32-bit
+// gathers.
 Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene);
 
 // Computes scene.hash from all that can reach a pixel. Call last.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/aligned.h"
+#include "scene/motion.h"
 #include "spanray/camera.h"
 #include "spanray/settings.h"
 
@@ -100,9 +101,14 @@ struct ScenePart {
   uint32_t first = 0, object = 0, group = 0;  // names: indices into SceneData::part_names
 };
 
-struct SceneData {
-  AlignedBuffer<Vertex> vertices;
-  AlignedBuffer<Triangle> triangles;
+// A piece of an array of the scene that moves with one motion; short enough to be one task.
+struct MovingRun {
+  uint32_t first, count, motion;  // the last: index into SceneData::motions
+};
+inline constexpr uint32_t kMostInRun = 4096;
+
+// All of a scene but its large arrays.
+struct SceneTables {
   std::vector<Material> materials;  // never empty
   std::vector<std::string> material_names;
   std::vector<ScenePart> parts;         // ascending; those without a triangle are left out
@@ -110,7 +116,6 @@ struct SceneData {
   std::vector<TextureUse> texture_uses;
   std::vector<Texture> textures;
   std::vector<std::string> texture_names;
-  AlignedBuffer<Texel> texels;
   std::vector<Light> lights;        // at most kMaxLights
   bool light_follows_eye = false;   // the only light is the default one: each frame has it near its own eye (default_light)
   float ambient_radiance[3] = {0.03f, 0.03f, 0.03f};
@@ -119,8 +124,18 @@ struct SceneData {
   std::vector<std::string> camera_names;
   std::vector<CameraKey> camera_path;
   Settings settings;                // what the scene file asks for; the command line goes over it
+  // Moving parts. The arrays hold them as the file does; scene/pose.h gives them as they stand at a time. Runs ascend, none overlap,
+  // and no vertex belongs to two parts.
+  std::vector<Motion> motions;
+  std::vector<MovingRun> moving_vertices, moving_triangles;
   float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};  // of all triangles; equal if there are none
-  uint64_t hash = 0;                // of everything above that can reach a pixel, taken after loading
+  uint64_t hash = 0;                // of everything that can reach a pixel, taken after loading
+};
+
+struct SceneData : SceneTables {
+  AlignedBuffer<Vertex> vertices;
+  AlignedBuffer<Triangle> triangles;
+  AlignedBuffer<Texel> texels;
 };
 
 }  // namespace spanray

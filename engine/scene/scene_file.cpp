@@ -109,7 +109,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
   TomlTable t(*node->as_table(), "[technique]",
               {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling", "max_bounces",
-               "samples", "antialiasing", "textures", "bump", "width", "height"},
+               "samples", "antialiasing", "textures", "bump", "width", "height", "time"},
               errors);
   t.word("shading", &s.shading);
   t.word("shadows", &s.shadows);
@@ -126,6 +126,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.word("antialiasing", &s.antialiasing);
   t.boolean("textures", &s.textures);
   t.boolean("bump", &s.bump);
+  t.number("time", {-kMostSeconds, kMostSeconds}, &s.time);
   t.integer("width", 1, 16384, &s.width);
   t.integer("height", 1, 16384, &s.height);
 }
@@ -185,7 +186,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   const Result<toml::table> parsed = parse_toml(text, file);
   if (!parsed) return parsed.error();
   TomlErrors errors(file);
-  TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material"},
+  TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material", "moving"},
                  errors);
   SceneFile scene;
   const SceneData defaults;
@@ -207,6 +208,8 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   read_path(root, scene, errors);
   read_technique(root, scene.settings, errors);
   read_materials(root, scene, errors);
+  scene.moving.file = file;
+  read_moving(root, scene.moving, errors);
   if (errors.first()) return *errors.first();
   return scene;
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/moving_parts.h"
 #include "scene/scene_data.h"
 #include "scene/text_input.h"
 #include "spanray/result.h"
@@ -37,6 +38,7 @@ struct SceneFile {
   std::vector<CameraKey> path;
   bool path_near_given = false;
   std::vector<MaterialOverride> materials;
+  MovingParts moving;
   float background[3], ambient[3];
   Settings settings;
 };

@@ -41,6 +41,8 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("glass_screen_door", "glass.toml", 0, [](Settings& s) { s.transparency = Transparency::kScreenDoor; });
   add("hall", "hall.toml", 0, all_on);
   add("hall_aisle", "hall.toml", 1, all_on);
+  add("orrery", "orrery.toml", 0, [](Settings& s) { s.time = 3; });
+  add("orrery_later_rays", "orrery.toml", 1, [](Settings& s) { s.time = 11.5, s.visibility = Visibility::kRay; });
   const auto samples = [](int count, Antialiasing mode) {
     return [=](Settings& s) { s.width = 160, s.height = 90, s.samples = count, s.antialiasing = mode; };
   };

@@ -32,6 +32,11 @@ class Scene {
   std::shared_ptr<const SceneData> data_;
 };
 
+// The scene as it stands at Settings::time `seconds`, with nothing moving in it; the scene itself if nothing moves. For questions
+// (spanray/query.h), which otherwise see parts where the file puts them; pictures need no more than Settings::time. Its hash is that of the
+// scene. |seconds| <= kMostSeconds.
+Scene scene_at(const Scene& scene, double seconds);
+
 // Called while a scene loads, from the thread that loads it: what is being done, and how much of that is done (0 to 1). False:
 // loading ends with an error as soon as it can.
 using LoadProgress = std::function<bool(const char* stage, double fraction)>;

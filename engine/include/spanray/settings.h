@@ -24,6 +24,8 @@ constexpr bool sample_count_ok(int count) {
   return false;
 }
 
+inline constexpr double kMostSeconds = 1e6;  // |Settings::time|
+
 struct Settings {
   int width = 1280, height = 720;  // pixels, 1 to 16384
   Shading shading = Shading::kPhong;
@@ -36,6 +38,7 @@ struct Settings {
   Culling culling = Culling::kNone;
   int samples = 1;  // a pixel, one of kSampleCounts, in the standard patterns of Direct3D 11 (docs/decisions/0007-samples.md)
   Antialiasing antialiasing = Antialiasing::kMultisample;  // only with more than one sample
+  double time = 0;  // seconds: where moving parts stand (docs of scene files: [[moving]]); nothing else depends on it
   bool textures = true;
   bool bump = true;
   int threads = 0;  // 0: one per processor

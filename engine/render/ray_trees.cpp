@@ -1,0 +1,49 @@
+#include "render/ray_trees.h"
+
+#include "core/timed.h"
+
+namespace spanray {
+
+RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, const std::vector<MovingRun>& moving, uint64_t poses,
+                                Parallel& parallel) {
+  if (flags_ != plan.material_flags) {
+    clear();
+    flags_ = plan.material_flags;
+  }
+  Work work;
+  const auto build = [&](uint32_t value, Tree& tree) {
+    Tree built;  // all of it or nothing, should memory run out
+    built.build_ms = timed_ms([&] {
+      built.bvh = std::make_unique<Bvh>(build_bvh(scene, flags_.data(), kMaterialTranslucent, value, parallel));
+      if (!moving.empty()) built.refit = std::make_unique<BvhRefit>(*built.bvh, moving);
+    });
+    if (built.refit) built.built_cost = built.refit->cost();
+    built.poses = poses;
+    tree = std::move(built);
+    return tree.build_ms;
+  };
+  const auto follow = [&](bool needed, uint32_t value, Tree& tree) {
+    if (!needed || (tree.bvh && tree.poses == poses)) return;
+    if (!tree.bvh) return void(work.first_build_ms += build(value, tree));
+    if (!tree.refit->any()) return;
+    work.refit_ms += timed_ms([&] { tree.refit->refit(scene, *tree.bvh, parallel); });
+    tree.poses = poses;
+    if (tree.refit->cost() <= kMostCost * tree.built_cost) return void(++work.refits);
+    work.rebuild_ms += build(value, tree);
+    ++work.rebuilds;
+  };
+  follow(plan.flags.bvh, 0, opaque_);
+  follow(plan.flags.translucent_bvh, kMaterialTranslucent, translucent_);
+  return work;
+}
+
+size_t RayTrees::memory_bytes() const {
+  size_t bytes = 0;
+  for (const Tree* tree : {&opaque_, &translucent_}) {
+    if (tree->bvh) bytes += tree->bvh->memory_bytes();
+    if (tree->refit) bytes += tree->refit->memory_bytes();
+  }
+  return bytes;
+}
+
+}  // namespace spanray

@@ -1,0 +1,45 @@
+// The trees that a renderer keeps from frame to frame.
+#pragma once
+#include <memory>
+
+#include "ray/bvh_refit.h"
+#include "render/plan.h"
+
+namespace spanray {
+
+// Opaque and translucent triangles each have a tree. Where parts move, a tree follows by a refit, or is built anew once its cost has
+// grown to kMostCost times that of the last build. Which of the two changes no picture.
+class RayTrees {
+ public:
+  // What one frame did.
+  struct Work {
+    double first_build_ms = 0;     // trees that were not there yet
+    double refit_ms = 0, rebuild_ms = 0;
+    uint64_t refits = 0, rebuilds = 0;
+  };
+
+  void clear() { opaque_ = {}, translucent_ = {}; }
+  // Builds what the plan asks for and is not there yet, and lets what is there follow the scene. moving: of the scene at rest; poses: how
+  // often the scene was posed so far.
+  Work update(const SceneData& scene, const Plan& plan, const std::vector<MovingRun>& moving, uint64_t poses, Parallel& parallel);
+
+  const Bvh* opaque() const { return opaque_.bvh.get(); }
+  const Bvh* translucent() const { return translucent_.bvh.get(); }
+  double build_ms() const { return opaque_.build_ms + translucent_.build_ms; }  // of the trees that are there
+  size_t memory_bytes() const;
+
+  // A choice, not a measured optimum: a build costs as much as 25 refits of the shipped moving scene (docs/decisions/0011-motion.md).
+  static constexpr double kMostCost = 1.5;
+
+ private:
+  struct Tree {
+    std::unique_ptr<Bvh> bvh;
+    std::unique_ptr<BvhRefit> refit;  // only where something moves
+    double built_cost = 0, build_ms = 0;
+    uint64_t poses = 0;               // where its triangles stand
+  };
+  std::vector<uint32_t> flags_;       // of materials, as the trees were built
+  Tree opaque_, translucent_;
+};
+
+}  // namespace spanray
