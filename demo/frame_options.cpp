@@ -93,6 +93,26 @@ void FrameOptions::add_number(CLI::App& command, const std::string& name, int Se
 }
 
 void FrameOptions::add_to(CLI::App& command) {
+  add_without_techniques(command);
+  add_word(command, "--shading", &Settings::shading, "Interpolation of light over a triangle");
+  add_word(command, "--shadows", &Settings::shadows, "How shadows are found", "map");
+  add_word(command, "--reflections", &Settings::reflections, "How mirrors see", "env");
+  add_word(command, "--visibility", &Settings::visibility, "Engine that finds what each pixel sees");
+  add_word(command, "--filter", &Settings::filter, "Texture filter");
+  add_word(command, "--transparency", &Settings::transparency, "How surfaces with opacity below 1 look");
+  const auto samples = [this](const std::string& text) {
+    int count = 0;
+    if (!parse_number(text, count) || !sample_count_ok(count))
+      throw CLI::ValidationError("--samples", "'" + text + "' is not 1, 4, 8 or 16 samples a pixel");
+    changes_.push_back([count](Settings& settings) { settings.samples = count; });
+  };
+  command.add_option_function<std::string>("--samples", samples, "Anti-aliasing: samples a pixel")->type_name("1|4|8|16");
+  add_word(command, "--antialiasing", &Settings::antialiasing, "With more than one sample: shade once a surface, or every sample");
+  add_switch(command, "--no-textures", &Settings::textures, "Material colors only");
+  add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
+}
+
+void FrameOptions::add_without_techniques(CLI::App& command) {
   command.add_option("SCENE", scene_path_, "Scene file (.toml) or mesh (.obj)")->required();
   command.add_flag("--allow-outside", allow_outside_, "Let the OBJ's material libraries and textures lie outside its folder");
   const auto size = [this](const std::string& text) {
@@ -108,13 +128,7 @@ void FrameOptions::add_to(CLI::App& command) {
   command.add_option_function<std::string>("--camera", camera, "A camera's name in the scene, or eye, target, vertical angle, then, if not those of the scene's first camera, "
                                                    "up vector and near plane")
       ->type_name("ex,ey,ez,tx,ty,tz,fovy[,ux,uy,uz[,near]]|NAME");
-  add_word(command, "--shading", &Settings::shading, "Interpolation of light over a triangle");
-  add_word(command, "--shadows", &Settings::shadows, "How shadows are found", "map");
-  add_word(command, "--reflections", &Settings::reflections, "How mirrors see", "env");
   add_number(command, "--max-bounces", &Settings::max_bounces, 0, kMaxBounces, "Mirror bounces after the primary hit");
-  add_word(command, "--visibility", &Settings::visibility, "Engine that finds what each pixel sees");
-  add_word(command, "--filter", &Settings::filter, "Texture filter");
-  add_word(command, "--transparency", &Settings::transparency, "How surfaces with opacity below 1 look");
   add_word(command, "--culling", &Settings::culling, "Faces to leave out");
   const auto time = [this](const std::string& text) {
     double seconds = 0;
@@ -123,16 +137,6 @@ void FrameOptions::add_to(CLI::App& command) {
     changes_.push_back([seconds](Settings& settings) { settings.time = seconds; });
   };
   command.add_option_function<std::string>("--time", time, "Seconds: where moving parts stand")->type_name("S");
-  const auto samples = [this](const std::string& text) {
-    int count = 0;
-    if (!parse_number(text, count) || !sample_count_ok(count))
-      throw CLI::ValidationError("--samples", "'" + text + "' is not 1, 4, 8 or 16 samples a pixel");
-    changes_.push_back([count](Settings& settings) { settings.samples = count; });
-  };
-  command.add_option_function<std::string>("--samples", samples, "Anti-aliasing: samples a pixel")->type_name("1|4|8|16");
-  add_word(command, "--antialiasing", &Settings::antialiasing, "With more than one sample: shade once a surface, or every sample");
-  add_switch(command, "--no-textures", &Settings::textures, "Material colors only");
-  add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");
   add_word(command, "--isa", &Settings::isa, "Instruction set; changes no pixel");
   command.add_option("--settings", settings_path_, "A file with a [technique], as `tune` writes it; "

@@ -1,4 +1,4 @@
-// The options that say what a frame is: scene, camera, settings. render, info, why and walk share them.
+// The options that say what a frame is: scene, camera, settings. All commands that take a scene share them.
 #pragma once
 #include <functional>
 #include <optional>
@@ -24,6 +24,9 @@ class FrameOptions {
  public:
   // Adds SCENE and all options to a command. *this must live until the program ends.
   void add_to(CLI::App& command);
+
+  // The same but for what the command itself turns (knobs.h): techniques that it would overwrite are wrong usage there.
+  void add_without_techniques(CLI::App& command);
 
   const std::string& scene_path() const { return scene_path_; }
   Settings settings_over(Settings settings) const;  // with the options applied

@@ -111,7 +111,9 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
   add_knob("reflections", "what mirrors show", bounces, bounces.back().word, absent(plan, {"bounce rays"}));
   add_knob("bump", "height and normal maps", switch_of(&Settings::bump), "on", absent(plan, {"bump"}));
   // What the scene asks for is the truth: the others are another look.
-  add_knob("transparency", "surfaces that let light through", words_of(&Settings::transparency), "scene",
+  std::vector<KnobChoice> blends = words_of(&Settings::transparency);  // scene, which blends all layers, comes first there
+  std::rotate(blends.begin(), blends.begin() + 1, blends.end());
+  add_knob("transparency", "surfaces that let light through", std::move(blends), "scene",
            absent(plan, {"composite", "accept masks"}));
   add_knob("visibility", "the engine that finds what each pixel sees", words_of(&Settings::visibility), "raster",
            absent(plan, {"transform, clip, bin, raster", "primary rays"}));

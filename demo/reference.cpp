@@ -9,6 +9,7 @@
 #include "picture.h"
 #include "progress_line.h"
 #include "reference/reference.h"
+#include "render/check_request.h"
 
 namespace spanray::demo {
 namespace {
@@ -27,6 +28,7 @@ int reference(const ReferenceCommand& command) {
   if (!loaded) return fail(loaded.error());
   const Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);
+  if (auto possible = check_request(job.scene, job.camera, job.settings); !possible) return fail(possible.error());
   Framebuffer picture;
   ReferenceOptions options;
   options.threads = job.settings.threads, options.grid = command.grid;

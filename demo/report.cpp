@@ -105,7 +105,7 @@ void add_report(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand(
       "report", "Speed against error: every technique measured and compared with the ground truth, as an HTML page");
   auto options = std::make_shared<ReportCommand>();
-  options->frame.add_to(*command);
+  options->frame.add_without_techniques(*command);
   command->add_option("--out", options->out, "Folder of the report: report.html, report.csv, report.json and pictures")
       ->required()
       ->type_name("DIR");

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <memory>
 
+#include "render/check_request.h"
+
 namespace spanray::demo {
 namespace {
 
@@ -59,12 +61,13 @@ Result<void> measure_times(const Job& job, const TradeOptions& options, std::vec
       if (auto done = frames(i, 1, false); !done) return done;
       if (auto done = frames(i, std::min(kFramesInTurn, options.frames - measured), true); !done) return done;
       progress((measured + kFramesInTurn * static_cast<double>(i + 1) / static_cast<double>(list.size())) /
-               (options.frames + kFramesInTurn));
+               ((options.frames + kFramesInTurn - 1) / kFramesInTurn * kFramesInTurn));
     }
   return {};
 }
 
 Result<Framebuffer> truth_of(const Job& job, Settings settings, int grid, const Progress& progress) {
+  if (auto possible = check_request(job.scene, job.camera, settings); !possible) return possible.error();
   ReferenceOptions options;
   options.threads = job.settings.threads, options.grid = grid;
   options.progress = progress;

@@ -46,7 +46,7 @@ struct Trade {
   std::vector<Measured> settings;  // in order of the candidates
 };
 
-// The settings take turns, five frames each (the first of them not measured), so that whatever else the machine does falls on
+// The settings take turns, five frames each after one that is not measured, so that whatever else the machine does falls on
 // all alike. Errors: of the renderer and of the reference.
 Result<Trade> measure_trade(const Job& job, const std::vector<Knob>& knobs, const std::vector<Candidate>& candidates,
                             const TradeOptions& options);

@@ -12,6 +12,7 @@
 #include "frame_options.h"
 #include "metric_limit.h"
 #include "progress_line.h"
+#include "render/check_request.h"
 #include "scene/scene_data.h"
 #include "trade.h"
 #include "tuner.h"
@@ -48,6 +49,7 @@ std::vector<TunedView> find_views(const Job& job, const TuneCommand& command) {
 Result<void> make_truths(const Job& job, const Settings& exact, const TuneCommand& command, std::vector<TunedView>& views,
                          ProgressLine& progress) {
   for (size_t i = 0; i < views.size(); ++i) {
+    if (auto possible = check_request(job.scene, views[i].camera, exact); !possible) return possible;
     ReferenceOptions options;
     options.threads = job.settings.threads, options.grid = command.grid;
     options.progress = [&](double f) {
@@ -106,12 +108,21 @@ std::string evidence_text(const Cost& cost, const MetricWord& metric, size_t vie
          (views == 1 ? "" : ", each of the worst of " + std::to_string(views) + " views");
 }
 
+std::string words_text(const Settings& settings) {
+  std::string text;
+  for (const auto& [name, value] : settings_words(settings)) text += (text.empty() ? "" : ", ") + name + " " + value;
+  return text;
+}
+
 int run_tune(const TuneCommand& command) {
   if ((command.max_ms > 0) == !command.limits.empty())
     throw UsageError("tune: give one budget, --max-ms X or --max-error METRIC=VALUE");
   if (command.limits.size() > 1) throw UsageError("tune: one --max-error is enough");
   if (!command.out.empty() && std::filesystem::path(command.out).extension() != ".toml")
     throw UsageError("tune: the file of --out must end in .toml: " + command.out);
+  std::error_code none;
+  if (!command.out.empty() && std::filesystem::equivalent(command.out, command.frame.scene_path(), none))
+    throw UsageError("tune: --out would replace the scene, " + command.out);
   if (!command.out.empty())
     if (auto writable = check_writable(command.out); !writable) return fail(writable.error());
   Result<Job> loaded = command.frame.load();
@@ -133,9 +144,11 @@ int run_tune(const TuneCommand& command) {
   progress.clear();
   if (!tuned) return fail(tuned.error());
   const std::string evidence = evidence_text(tuned.value().cost, metric, views.size(), tuned.value().settings);
-  if (!tuned.value().kept)
+  if (!tuned.value().kept) {
+    message("the nearest settings: " + words_text(tuned.value().settings));
     return fail("no settings keep this budget; the nearest of " + std::to_string(tuned.value().tried) + " that were tried, " +
                 evidence);
+  }
   const std::string text =
       settings_toml(job, tuned.value().settings, evidence + ", " + std::to_string(tuned.value().tried) + " settings tried");
   std::fputs(text.c_str(), stdout);
@@ -149,7 +162,7 @@ int run_tune(const TuneCommand& command) {
 void add_tune(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("tune", "Find the cheapest settings that keep a budget of time or error");
   auto options = std::make_shared<TuneCommand>();
-  options->frame.add_to(*command);
+  options->frame.add_without_techniques(*command);
   command->add_option("--max-ms", options->max_ms, "A frame may take X milliseconds (median); the error is made least")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("X");

@@ -74,7 +74,7 @@ Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, con
     if (!search.start(cheapest_settings(knobs, settings))) return search.error();
     // Techniques that cost most where they are useless (textures off are no faster everywhere): the way down comes first.
     if (search.cost().ms > budget &&
-        !search.climb([](const Cost& c, const Cost& was) { return c.ms < (1 - kNoise) * was.ms; }, faster))
+        !search.climb([=](const Cost& c, const Cost& was) { return c.ms <= budget || c.ms < (1 - kNoise) * was.ms; }, faster))
       return search.error();
     if (search.cost().ms > budget) return search.result(false);
     if (!search.climb([&](const Cost& c, const Cost& was) { return c.ms <= budget && c.error < was.error; }, errs_less))

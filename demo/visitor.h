@@ -21,7 +21,7 @@ struct Slide {
 // Source: Nettle 2000, "Generic Collision Detection for Games Using Ellipsoids" (sliding planes); creases as in Quake's SV_FlyMove.
 Result<Slide> slide(const SceneQuery& scene, const glm::dvec3& from, const glm::dvec3& step, double radius);
 
-// A 200th of the scene's diagonal, and at least twice the near plane: corners of the near plane stay inside of the sphere.
+// A 200th of the scene's diagonal, and at least twice the near plane, whose corners then stay inside of the sphere up to 80 degrees at 16:9.
 double fitted_radius(const Scene& scene, const Camera& camera);
 
 // The scene as the visitor feels it: its tree is built in a thread of its own.

@@ -69,7 +69,7 @@ class Walk {
         radius_(options.radius > 0 ? options.radius : fitted_radius(job.job.scene, job.job.camera)),
         camera_(job.job.camera),
         hint_(frames_ == 0) {
-    session_.walls() = options.radius != 0;
+    session_.walls() = options.radius != 0 && frames_ == 0;  // a measured run builds no tree of its own
   }
   int run();
 
