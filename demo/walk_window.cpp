@@ -7,13 +7,11 @@
 #include <memory>
 
 #include "camera_path.h"
-#include "fly_camera.h"
 #include "panel.h"
 #include "scene_loading.h"
 #include "speak.h"
 #include "stage_times.h"
-#include "visitor.h"
-#include "walk_session.h"
+#include "walk_query.h"
 #include "window.h"
 
 namespace spanray::demo {
@@ -31,7 +29,7 @@ constexpr double kHintSeconds = 6;
 constexpr int kSettleDraws = 3;         // drawings after the last event: a click is pressed, released and seen
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-int fits(int side) { return std::clamp(side, 1, 16384); }
+int fits(int side) { return std::clamp(side, 1, kMaxImageSide); }
 
 // Without waiting for threads that nobody can stop (a tree being built, a huge texture being decoded).
 [[noreturn]] void leave_now() {
@@ -65,8 +63,7 @@ class Walk {
         path_(job.path),
         frames_(options.frames(job)),
         session_(job.job),
-        surroundings_(job.job.scene),
-        radius_(options.radius > 0 ? options.radius : fitted_radius(job.job.scene, job.job.camera)),
+        query_(job.job.scene, options.radius > 0 ? options.radius : fitted_radius(job.job.scene, job.job.camera)),
         camera_(job.job.camera),
         hint_(frames_ == 0) {
     session_.walls() = options.radius != 0 && frames_ == 0;  // a measured run builds no tree of its own
@@ -76,9 +73,6 @@ class Walk {
  private:
   bool handle(const Input& input);
   void fly(const Input& input);
-  void step(double right, double up, double forward);
-  bool point_at(std::optional<RayHit>& hit);
-  void print_pointed();
   void play();
   void jump(int camera);
   void follow_path(double seconds);
@@ -98,9 +92,7 @@ class Walk {
   std::vector<CameraKey> path_;
   int frames_;  // 0: until the window is closed
   WalkSession session_;
-  Surroundings surroundings_;
-  double radius_;           // of who walks
-  int pointer_x_ = -1, pointer_y_ = -1;  // where the pointer was over the picture last
+  WalkQuery query_;
   FlyCamera camera_;
   int camera_index_ = 0;
   bool panel_ = false, help_ = false, hint_, look_ = false;
@@ -138,14 +130,14 @@ int Walk::run() {
     }
   }
   if (frames_ > 0) report_frames(session_.frame_ms());
-  if (Result<bool> last = session_.take_frame(kPatienceMs); session_.busy() || surroundings_.building()) leave_now();
+  if (Result<bool> last = session_.take_frame(kPatienceMs); session_.busy() || query_.building()) leave_now();
   return kDone;
 }
 
 // False if the walk is over.
 bool Walk::handle(const Input& input) {
   if (wants_to_leave(input)) return false;
-  if (input.pointer_x >= 0) pointer_x_ = input.pointer_x, pointer_y_ = input.pointer_y;
+  query_.point(input);
   for (const std::string& key : input.pressed) {
     if (key == "M") window_.set_look(look_ = !look_);
     else if (key == "F2") panel_ = !panel_;
@@ -153,7 +145,7 @@ bool Walk::handle(const Input& input) {
     else if (key == "L") play();
     else if (key == "Space") clock_runs_ = !clock_runs_ && things_move();
     else if (key == "F1") show_help(!help_);
-    else if (key == "I") print_pointed();
+    else if (key == "I") query_.print_pointed(session_.shown());
     else if (session_.press(key, camera_.camera())) dirty_ = true;
   }
   if (!input.pressed.empty() || input.clicked || (shown_ > 0 && seconds_since(first_shown_) > kHintSeconds)) {
@@ -180,7 +172,7 @@ void Walk::fly(const Input& input) {
   const bool turns = input.mouse_dx != 0 || input.mouse_dy != 0;
   if (moving_ || turns) playing_ = false;
   camera_.turn(input.mouse_dx, input.mouse_dy);
-  step(input.move_right * way, input.move_up * way, input.move_forward * way);
+  if (moving_) query_.step(session_, camera_, input.move_right * way, input.move_up * way, input.move_forward * way);
   dirty_ |= moving_ || turns;
   if (!playing_) {
     if (clock_runs_) set_time(session_.settings().time + seconds);
@@ -188,42 +180,6 @@ void Walk::fly(const Input& input) {
   }
   follow_path(path_time_ + seconds);
   playing_ = path_time_ < path_length();
-}
-
-// Nobody walks before the tree is there, lest they walk through a wall.
-void Walk::step(double right, double up, double forward) {
-  if (!session_.walls()) return camera_.move(right, up, forward);
-  const SceneQuery* scene = surroundings_.query();
-  if (!moving_ || scene == nullptr) return;
-  FlyCamera moved = camera_;
-  moved.move(right, up, forward);
-  const auto eye = [](const FlyCamera& c) { return glm::dvec3(c.camera().eye[0], c.camera().eye[1], c.camera().eye[2]); };
-  const Result<Slide> slid = slide(*scene, eye(camera_), eye(moved) - eye(camera_), radius_);
-  if (!slid) {
-    message("walls no longer stop you: " + slid.error().to_string());
-    session_.walls() = false;
-    return;
-  }
-  camera_ = moved;
-  const glm::dvec3& place = slid.value().place;
-  if (slid.value().stopped) camera_.place({place.x, place.y, place.z});
-}
-
-// What the shown picture has where the pointer was last; false if that is not known.
-bool Walk::point_at(std::optional<RayHit>& hit) {
-  const ShownFrame& shown = session_.shown();
-  const SceneQuery* scene = surroundings_.query();
-  if (scene == nullptr || pointer_x_ < 0 || pointer_x_ >= shown.picture.width || pointer_y_ >= shown.picture.height) return false;
-  const auto found = scene->pixel(shown.order.camera, shown.picture.width, shown.picture.height, pointer_x_, pointer_y_);
-  if (found) hit = found.value();
-  return static_cast<bool>(found);
-}
-
-void Walk::print_pointed() {
-  std::optional<RayHit> hit;
-  if (!point_at(hit)) return message("nothing is known of what is under the pointer");
-  std::printf("%d,%d: %s\n", pointer_x_, pointer_y_, hit_text(hit, session_.shown().order.camera.eye).c_str());
-  std::fflush(stdout);
 }
 
 void Walk::play() {
@@ -266,7 +222,7 @@ Result<void> Walk::take_frame() {
   if (!taken.value()) return {};
   if (shown_++ == 0) {
     first_shown_ = Clock::now();
-    if (frames_ == 0) surroundings_.prepare();
+    if (frames_ == 0) query_.prepare();
   }
   new_picture_ = title_due_ = true;
   return window_.set_picture(session_.shown().picture);
@@ -295,7 +251,7 @@ void Walk::draw_ui() {
   const bool panel = panel_ && !(help_ && !help_fits_beside_panel());
   if (panel) {
     PanelInput input{camera_.camera(), path_, playing_, path_time_};
-    input.pointed = point_at(input.under);
+    input.pointed = query_.pointed(session_.shown(), input.under);
     input.clock_runs = clock_runs_;
     const PanelAction action = draw_panel(session_, input);
     dirty_ |= action.changed;

@@ -112,7 +112,7 @@ TEST(RayBuild, Y14_EmptyMeshMisses) {
       FragmentList all;
       trace_closest(t->frame, *bvh, rays, closest);
       trace_any(t->frame, *bvh, rays, any);
-      trace_all(t->frame, *bvh, rays, all);
+      trace_all(t->frame, *bvh, rays, HitsOnEdges::kOfAll, all);
       EXPECT_TRUE(std::all_of(closest, closest + 40, [](uint32_t p) { return p == kNoPrimitive; }));
       EXPECT_EQ(any[0] | any[1], 0u);
       EXPECT_TRUE(all.primitive.empty());

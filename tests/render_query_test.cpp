@@ -78,8 +78,8 @@ TEST(Query, APixelIsWhatTheFrameShowsThere) {
     const SceneQuery query(scene, opaque), panes(scene);
     int hits = 0, nearer = 0;
     for (int i = 0; i < 96 * 54; ++i) {
-      const auto hit = query.pixel(scene.cameras()[0], 96, 54, i % 96, i / 96);
-      const auto any = panes.pixel(scene.cameras()[0], 96, 54, i % 96, i / 96);
+      const auto hit = query.pixel(scene.cameras()[0], settings, i % 96, i / 96);
+      const auto any = panes.pixel(scene.cameras()[0], settings, i % 96, i / 96);
       ASSERT_TRUE(hit && any);
       const uint32_t id = frame.primitive[static_cast<size_t>(i)];
       ASSERT_EQ(id, hit.value() ? hit.value()->name.triangle : kNoPrimitive) << name << " pixel " << i;
@@ -239,11 +239,14 @@ TEST(Query, BadQuestionsAreErrors) {
   }
   EXPECT_FALSE(query.touching({0, nan, 0}, 1));
   EXPECT_FALSE(query.touching({0, 0, 0}, HUGE_VAL));
-  EXPECT_FALSE(query.pixel(Camera(), 10, 10, 10, 0));
-  EXPECT_FALSE(query.pixel(Camera(), 0, 10, 0, 0));
+  Settings ten;
+  ten.width = ten.height = 10;
+  EXPECT_FALSE(query.pixel(Camera(), ten, 10, 0));
   Camera broken;
   broken.eye[0] = nan;
-  EXPECT_FALSE(query.pixel(broken, 10, 10, 1, 1));
+  EXPECT_FALSE(query.pixel(broken, ten, 1, 1));
+  ten.width = 0;
+  EXPECT_FALSE(query.pixel(Camera(), ten, 0, 0));
   const SceneQuery none{Scene()};
   EXPECT_FALSE(none.prepare());
   EXPECT_FALSE(none.closest(Ray()));

@@ -9,9 +9,11 @@
 #include "frame/primary_rays.h"
 #include "frame/transparency.h"
 #include "math/vec.h"
-#include "scene/scene_data.h"
+#include "reference/reference.h"
+#include "scene/scene_builder.h"
 #include "spanray/render.h"
 #include "support/edge_distance.h"
+#include "support/test_frame.h"
 
 namespace spanray {
 namespace {
@@ -80,6 +82,41 @@ TEST_P(RasterAgainstRays, Y13_SamePicture) {
   std::printf("%s: %zu of %zu covered pixels differ in id, %zu more in color\n", GetParam().scene, ids_differ, covered, colors_differ);
   EXPECT_GT(covered, frames[0].primitive.size() / 4) << "an empty picture proves nothing";
   EXPECT_LE(ids_differ, covered / 500);
+}
+
+// A pane of two triangles, seen head-on so that their common edge runs through pixel centers, before a wall: one layer for the rasterizer, for
+// rays and for the reference.
+TEST(RenderVisibility, APaneIsOneLayerOnItsDiagonal) {
+  std::vector<Material> materials(2);
+  materials[0].transparency = static_cast<int32_t>(MaterialTransparency::kAlpha), materials[0].opacity = 0.5f;
+  materials[0].emission[0] = 0.5f;
+  materials[1].emission[1] = 0.75f;
+  std::vector<SoupTriangle> soup;
+  const auto add_square = [&](double half, double z, uint32_t material) {
+    const glm::dvec3 a(-half, -half, z), b(half, -half, z), c(half, half, z), d(-half, half, z);
+    soup.push_back(soup_triangle(a, b, c, material)), soup.push_back(soup_triangle(a, c, d, material));
+  };
+  add_square(1, 0, 0), add_square(4, -2, 1);
+  const Scene scene(std::make_shared<SceneData>(make_test_scene(soup, materials)));
+  Camera camera;
+  camera.eye[2] = 3;
+  Settings settings;
+  settings.width = settings.height = 64;
+  Framebuffer raster, rays, truth;
+  Renderer renderer;
+  ASSERT_TRUE(renderer.render(scene, camera, settings, raster));
+  settings.visibility = Visibility::kRay;
+  ASSERT_TRUE(renderer.render(scene, camera, settings, rays));
+  ASSERT_TRUE(render_reference(scene, camera, settings, {}, truth));
+  int panes = 0;
+  for (size_t i = 0; i < raster.color.rgba.size(); i += 4) {
+    panes += raster.color.rgba[i] > 100;
+    for (size_t c = 0; c < 3; ++c) {
+      ASSERT_EQ(raster.color.rgba[i + c], rays.color.rgba[i + c]) << "pixel " << i / 4;
+      ASSERT_NEAR(raster.color.rgba[i + c], truth.color.rgba[i + c], 1) << "pixel " << i / 4;
+    }
+  }
+  EXPECT_GT(panes, 400);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RasterAgainstRays,

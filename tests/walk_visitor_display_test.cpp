@@ -67,11 +67,13 @@ TEST_F(WalkVisitor, NamesWhatIsUnderThePointer) {
   const double eye[3] = {0.5, 1.5, 4.5}, target[3] = {0, 0.6, 0};
   std::copy_n(eye, 3, camera.eye), std::copy_n(target, 3, camera.target), camera.fov_y_degrees = 50;
   const SceneQuery query(loaded.value().scene);
+  Settings shown;
+  shown.width = 1000, shown.height = 500;
   std::set<std::string> seen;
   for (const auto& [x, y] : {std::pair{440, 330}, {560, 200}, {560, 280}, {500, 420}, {480, 150}, {900, 20}}) {
     point(x, y);
     const std::string line = printed("i"), place = std::to_string(x) + "," + std::to_string(y) + ": ";
-    const auto hit = query.pixel(camera, 1000, 500, x, y);
+    const auto hit = query.pixel(camera, shown, x, y);
     ASSERT_TRUE(hit);
     EXPECT_EQ(0u, line.find(place)) << line;
     if (!hit.value()) {

@@ -38,7 +38,11 @@ void trace_closest(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uin
 // Bit i of out (32 a word) is set if ray i hits anything with t in [0, t_max]. Both faces occlude.
 void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out);
 
+// Rays exactly through an edge or a corner hit all triangles that have it: right for "the closest" and "any", but as layers they would count
+// twice. kOfOne: each surface that a ray crosses once (owns_hit() of ray/triangle_test.h), as the rasterizer's top-left rule has it.
+enum class HitsOnEdges { kOfAll, kOfOne };
+
 // Appends every hit with t in [0, t_max] (unordered, each primitive once a ray).
-void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, FragmentList& out);
+void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, HitsOnEdges edges, FragmentList& out);
 
 }  // namespace spanray

@@ -11,8 +11,8 @@ void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_
   kTraceAny[isa_index(frame.isa)](frame, bvh.data(), rays, out);
 }
 
-void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, FragmentList& out) {
-  kTraceAll[isa_index(frame.isa)](frame, bvh.data(), rays, out);
+void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {
+  kTraceAll[isa_index(frame.isa)](frame, bvh.data(), rays, edges, out);
 }
 
 }  // namespace spanray

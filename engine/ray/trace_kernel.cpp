@@ -57,7 +57,7 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
 }
 
 // Hits of one ray stay together, in no order: rays go alone.
-void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, FragmentList& out) {
+void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {
   if (data.nodes.empty()) return;
   const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
   PacketTask packet(data, batch);
@@ -67,7 +67,7 @@ void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
       const int i = std::countr_zero(rest);
       LaneRay ray;
       take_lane(packet.lanes(), i, ray);
-      AllVisitor visitor{batch, ray.exact, first + i, packet.lanes().limit[i], out};
+      AllVisitor visitor{batch, ray.exact, first + i, packet.lanes().limit[i], edges == HitsOnEdges::kOfOne, out};
       traverse(data, 0, 0.0f, ray, visitor);
     }
   }

@@ -112,7 +112,7 @@ struct Stack {
 template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& block, int lane, const LaneRay& ray, Visitor& visitor) {
   const TriangleView triangle{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth};
   double t;
-  return hit_triangle(ray.exact, triangle, t) && visitor.hit(t, block.primitive[lane]);
+  return hit_triangle(ray.exact, triangle, t) && visitor.takes(triangle) && visitor.hit(t, block.primitive[lane]);
 }
 
 // Tests the triangles of a leaf; true if the visitor wants to end.

@@ -84,22 +84,45 @@ struct TriangleView {
   [[gnu::always_inline]] float operator()(int vertex, int axis) const { return first[vertex * vertex_stride + axis * axis_stride]; }
 };
 
+// Corners along the ray's axes, sheared so that the ray is the z axis, and edge functions: exact opposites for two triangles that share
+// the edge; of the right sign or 0.
+struct SeenTriangle {
+  double x[3], y[3], z[3];
+  double u, v, w;
+  [[gnu::always_inline]] SeenTriangle(const TraceRay& ray, const TriangleView& vertex) {
+    const double ox = ray.origin[ray.kx], oy = ray.origin[ray.ky], oz = ray.origin[ray.kz];
+    for (int i = 0; i < 3; ++i) {
+      z[i] = static_cast<double>(vertex(i, ray.kz)) - oz;
+      x[i] = (static_cast<double>(vertex(i, ray.kx)) - ox) - ray.shear_x * z[i];
+      y[i] = (static_cast<double>(vertex(i, ray.ky)) - oy) - ray.shear_y * z[i];
+    }
+    u = x[2] * y[1] - y[2] * x[1];
+    v = x[0] * y[2] - y[0] * x[2];
+    w = x[1] * y[0] - y[1] * x[0];
+  }
+};
+
+// Of the triangles that share an edge or a corner which the ray passes exactly through, some own the hit: those that it would meet if it
+// were moved by (e, e^2), e infinitely small and positive, along its axes kx and ky. Of a surface that the ray crosses that is one.
+// Source: Edelsbrunner and Muecke 1990, "Simulation of Simplicity"; the top-left rule of rasterizers.
+inline bool owns_hit(const TraceRay& ray, const TriangleView& vertex) {
+  const SeenTriangle s(ray, vertex);
+  const auto side = [&](double edge, int i, int j) {  // of the edge from corner i to corner j
+    if (edge != 0) return edge > 0;
+    return s.y[j] != s.y[i] ? s.y[j] > s.y[i] : s.x[j] < s.x[i];
+  };
+  const bool u = side(s.u, 1, 2), v = side(s.v, 2, 0), w = side(s.w, 0, 1);
+  return u == v && v == w;
+}
+
 // Watertight ray-triangle test. On a hit sets t, in units of the scaled direction; 0 < t, t may exceed ray.t_max.
 // Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; Pharr, Jakob, Humphreys, PBR 4th ed., 6.8.7.
 // Contract: unfused, so edge functions of a shared edge are exact opposites; their signs are right or the value is 0, and 0 counts as
 //           inside, so no ray passes between two triangles. Hits not provably in front of the origin are refused.
 //           t lies in the slab interval of the triangle's box, so no node around it can be culled before it.
 [[gnu::always_inline]] inline bool hit_triangle(const TraceRay& ray, const TriangleView& vertex, double& t) {
-  double x[3], y[3], z[3];
-  const double ox = ray.origin[ray.kx], oy = ray.origin[ray.ky], oz = ray.origin[ray.kz];
-  for (int i = 0; i < 3; ++i) {
-    z[i] = static_cast<double>(vertex(i, ray.kz)) - oz;
-    x[i] = (static_cast<double>(vertex(i, ray.kx)) - ox) - ray.shear_x * z[i];
-    y[i] = (static_cast<double>(vertex(i, ray.ky)) - oy) - ray.shear_y * z[i];
-  }
-  const double u = x[2] * y[1] - y[2] * x[1];
-  const double v = x[0] * y[2] - y[0] * x[2];
-  const double w = x[1] * y[0] - y[1] * x[0];
+  const SeenTriangle seen(ray, vertex);
+  const auto &[x, y, z, u, v, w] = seen;
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
   const double det = u + v + w;
   if (det == 0) return false;

@@ -41,6 +41,7 @@ struct ClosestVisitor {
   double best_t;
   uint32_t best;
   float limit;  // >= best_t
+  HWY_INLINE bool takes(const TriangleView&) const { return true; }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
     if (t > best_t || (t == best_t && primitive > best)) return false;
     if (!batch.accepts(index, ray.origin, primitive)) return false;
@@ -61,6 +62,7 @@ struct AnyVisitor {
     if (!batch.takes_all(primitive)) return false;
     return found = true;
   }
+  HWY_INLINE bool takes(const TriangleView&) const { return true; }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
     if (!(t <= ray.t_max) || !batch.accepts(index, ray.origin, primitive)) return false;
     return found = true;
@@ -73,7 +75,9 @@ struct AllVisitor {
   const TraceRay& ray;
   int index;
   float limit;
+  bool owned_only;
   FragmentList& out;
+  HWY_INLINE bool takes(const TriangleView& triangle) const { return !owned_only || owns_hit(ray, triangle); }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
     if (t <= ray.t_max && batch.accepts(index, ray.origin, primitive)) {
       out.pixel.push_back(batch.rays.pixel[index]);

@@ -15,30 +15,53 @@ glm::dvec3 position(const SceneData& scene, uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
+// A triangle seen along a line: the line is the axis.
+struct Sheared {
+  double px[3], py[3], depth[3];
+  bool good;
+  Sheared(const Line& line, const glm::dvec3 (&v)[3]) {
+    const glm::dvec3& d = line.direction;
+    const int z = std::fabs(d.x) >= std::fabs(d.y) ? (std::fabs(d.x) >= std::fabs(d.z) ? 0 : 2)
+                                                   : (std::fabs(d.y) >= std::fabs(d.z) ? 1 : 2);
+    const int x = (z + 1) % 3, y = (z + 2) % 3;
+    good = d[z] != 0;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 q = v[k] - line.origin;
+      px[k] = q[x] - d[x] / d[z] * q[z], py[k] = q[y] - d[y] / d[z] * q[z], depth[k] = q[z] / d[z];
+    }
+  }
+  // Of the triangle that the edge opposite corner k makes with the line.
+  double area(int k) const {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    return px[i] * py[j] - py[i] * px[j];
+  }
+};
+
 }  // namespace
 
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t) {
-  const glm::dvec3& d = line.direction;
-  const int z = std::fabs(d.x) >= std::fabs(d.y) ? (std::fabs(d.x) >= std::fabs(d.z) ? 0 : 2)
-                                                 : (std::fabs(d.y) >= std::fabs(d.z) ? 1 : 2);
-  if (d[z] == 0) return false;
-  const int x = (z + 1) % 3, y = (z + 2) % 3;
-  double px[3], py[3], depth[3], area[3], sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const glm::dvec3 q = v[k] - line.origin;
-    px[k] = q[x] - d[x] / d[z] * q[z], py[k] = q[y] - d[y] / d[z] * q[z], depth[k] = q[z] / d[z];
-  }
+  const Sheared s(line, v);
+  if (!s.good) return false;
   // Rounding keeps the order of products: a difference is never of the wrong sign, at worst 0, which counts as the edge, for
   // both sides.
   bool left = false, right = false;
+  double area[3], sum = 0;
+  for (int k = 0; k < 3; ++k) area[k] = s.area(k), sum += area[k], left |= area[k] > 0, right |= area[k] < 0;
+  if (left == right || sum == 0) return false;  // outside, or seen edge-on
+  t = (area[0] * s.depth[0] + area[1] * s.depth[1] + area[2] * s.depth[2]) / sum;
+  return std::isfinite(t);
+}
+
+bool keeps(const Line& line, const glm::dvec3 (&v)[3]) {
+  const Sheared s(line, v);
+  int left = 0;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    area[k] = px[i] * py[j] - py[i] * px[j], sum += area[k];
-    left |= area[k] > 0, right |= area[k] < 0;
+    const double area = s.area(k);
+    // Moved to the right, and by far less upward: an edge that runs upward is then passed on its left, a level one by its direction.
+    left += area != 0 ? area > 0 : s.py[i] != s.py[j] ? s.py[i] > s.py[j] : s.px[i] < s.px[j];
   }
-  if (left == right || sum == 0) return false;  // outside, or seen edge-on
-  t = (area[0] * depth[0] + area[1] * depth[1] + area[2] * depth[2]) / sum;
-  return std::isfinite(t);
+  return left == 0 || left == 3;
 }
 
 void Tree::Box::add(const glm::dvec3& p) {

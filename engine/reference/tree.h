@@ -19,6 +19,10 @@ struct Line {
 // Contract: no line slips between triangles that share vertices. t lies within the range of the corners.
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
 
+// Of a line that meets the triangle: still, if it is moved sideways by as little as one likes, in a direction that is the same for all
+// triangles? Of those that share the edge or corner that it runs through, one says yes, if it crosses their surface there.
+bool keeps(const Line& line, const glm::dvec3 (&v)[3]);
+
 struct Met {
   double t = std::numeric_limits<double>::infinity();
   uint32_t primitive = kNoPrimitive;
@@ -35,7 +39,8 @@ class Tree {
   template <class Accept>
   Met closest(const Line& line, double t_min, double t_max, const Accept& accept) const {
     Met best;
-    walk(line, t_max, [&](uint32_t primitive, double t, double& limit) {
+    walk(line, t_max, [&](const Item& item, double t, double& limit) {
+      const uint32_t primitive = item.primitive;
       if (!(t > t_min) || t > best.t || (t == best.t && primitive > best.primitive) || !accept(primitive, t)) return false;
       best = {t, primitive}, limit = t;
       return false;
@@ -46,15 +51,15 @@ class Tree {
   template <class Accept>
   bool any(const Line& line, double t_min, double t_max, const Accept& accept) const {
     bool found = false;
-    walk(line, t_max, [&](uint32_t primitive, double t, double&) { return found = t > t_min && accept(primitive, t); });
+    walk(line, t_max, [&](const Item& item, double t, double&) { return found = t > t_min && accept(item.primitive, t); });
     return found;
   }
-  // All hits in (t_min, t_max] that accept takes, in no order.
+  // All hits in (t_min, t_max] that accept takes, in no order: layers, so that a hit on an edge counts once.
   template <class Accept>
   std::vector<Met> all(const Line& line, double t_min, double t_max, const Accept& accept) const {
     std::vector<Met> found;
-    walk(line, t_max, [&](uint32_t primitive, double t, double&) {
-      if (t > t_min && accept(primitive, t)) found.push_back({t, primitive});
+    walk(line, t_max, [&](const Item& item, double t, double&) {
+      if (t > t_min && keeps(line, item.v) && accept(item.primitive, t)) found.push_back({t, item.primitive});
       return false;
     });
     return found;
@@ -86,7 +91,7 @@ class Tree {
   static size_t split(std::vector<Reference>& list, size_t begin, size_t end);
   static bool enters(const Box& box, const Line& line, double t_max);
 
-  // visit(primitive, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
+  // visit(item, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
   template <class Visit>
   void walk(const Line& line, double t_max, const Visit& visit) const {
     if (node_.empty()) return;
@@ -103,7 +108,7 @@ class Tree {
       }
       for (uint32_t i = node.first; i < node.first + node.count; ++i) {
         double t;
-        if (meets(line, item_[i].v, t) && t <= t_max && visit(item_[i].primitive, t, t_max)) return;
+        if (meets(line, item_[i].v, t) && t <= t_max && visit(item_[i], t, t_max)) return;
       }
     }
   }

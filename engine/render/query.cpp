@@ -77,7 +77,7 @@ struct SceneQuery::Impl {
   std::once_flag built;  // what stands below is read only from then on
   std::optional<Parallel> one;  // frames point at a pool; questions run in the thread that asks
   Frame frame;
-  std::vector<uint32_t> for_rays, for_pixels, solid;  // MaterialFlags by material, of the three kinds of questions
+  std::vector<uint32_t> for_rays, solid;  // MaterialFlags by material
   Bvh bvh;
 
   Impl(Scene asked, const QueryOptions& wanted) : scene(std::move(asked)), options(wanted) {}
@@ -98,17 +98,22 @@ struct SceneQuery::Impl {
     return {};
   }
 
+  // MaterialFlags by material. doors: screen-doors let through what their pattern does.
+  std::vector<uint32_t> flags_for(const Settings& s, bool doors) const {
+    std::vector<uint32_t> flags;
+    for (const Material& m : scene.data().materials) {
+      const MaterialTransparency kind = effective_transparency(m, s);
+      const bool cut = kind == MaterialTransparency::kMask || (doors && kind == MaterialTransparency::kScreenDoor);
+      const bool passed = kind == MaterialTransparency::kAlpha && !options.translucent;
+      flags.push_back(passed ? kMaterialTranslucent | kMaterialMasked : options.cutouts && cut ? kMaterialMasked : 0u);
+    }
+    return flags;
+  }
+
   void build() {
     const SceneData& data = scene.data();
     const Settings s = settings();
-    solid.assign(data.materials.size(), 0), for_rays = for_pixels = solid;
-    for (size_t i = 0; i < data.materials.size(); ++i) {
-      const MaterialTransparency kind = effective_transparency(data.materials[i], s);
-      if (kind == MaterialTransparency::kAlpha && !options.translucent)
-        for_rays[i] = for_pixels[i] = kMaterialTranslucent | kMaterialMasked;
-      if (options.cutouts && kind == MaterialTransparency::kMask) for_rays[i] = for_pixels[i] = kMaterialMasked;
-      if (options.cutouts && kind == MaterialTransparency::kScreenDoor) for_pixels[i] = kMaterialMasked;
-    }
+    solid.assign(data.materials.size(), 0), for_rays = flags_for(s, false);
     one.emplace(1);
     frame = make_frame(data, Camera(), s, make_plan(data, find_scene_use(data), s), *one);
     frame.material_flags = for_rays.data();
@@ -160,7 +165,7 @@ struct SceneQuery::Impl {
   // The same among hits at t_min or beyond: all hits are asked for, since the tracer knows no t_min.
   std::optional<RayHit> first_beyond(const Frame& f, const Ray& ray) const {
     FragmentList list;
-    trace_all(f, bvh, batch_of({&ray, 1}), list);
+    trace_all(f, bvh, batch_of({&ray, 1}), HitsOnEdges::kOfAll, list);
     std::optional<RayHit> best;
     for (const uint32_t primitive : list.primitive) {
       const RayHit hit = hit_of(ray, primitive);
@@ -232,16 +237,19 @@ Result<bool> SceneQuery::any(const Ray& ray) const {
   });
 }
 
-Result<std::optional<RayHit>> SceneQuery::pixel(const Camera& camera, int width, int height, int x, int y) const {
+Result<std::optional<RayHit>> SceneQuery::pixel(const Camera& camera, const Settings& asked, int x, int y) const {
   return guarded([&]() -> Result<std::optional<RayHit>> {
     Settings settings = impl_->settings();
-    settings.width = width, settings.height = height;
+    settings.width = asked.width, settings.height = asked.height;
+    settings.transparency = asked.transparency, settings.filter = asked.filter, settings.culling = asked.culling;
     if (auto checked = check_request(impl_->scene, camera, settings); !checked) return checked.error();
-    if (x < 0 || y < 0 || x >= width || y >= height)
+    if (x < 0 || y < 0 || x >= settings.width || y >= settings.height)
       return Error{"pixel " + std::to_string(x) + "," + std::to_string(y) + " is outside of the picture"};
     if (auto ready = impl_->prepare(); !ready) return ready.error();
-    Frame frame = impl_->frame_for(impl_->for_pixels);
-    frame.primary = make_primary_rays(camera, width, height);
+    const std::vector<uint32_t> flags = impl_->flags_for(settings, true);
+    Frame frame = impl_->frame_for(flags);
+    frame.settings = settings;
+    frame.primary = make_primary_rays(camera, settings.width, settings.height);
     Ray ray;
     round_primary_ray(frame.primary, x + frame.places.x[0], y + frame.places.y[0], ray.origin, ray.direction);
     RayBatch batch = batch_of({&ray, 1});

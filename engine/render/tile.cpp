@@ -124,7 +124,7 @@ void trace_fragments(const FrameJob& job, TileWorker& w, Level& level, bool prim
   // A little beyond the opaque hit, since t of the tracer and t of resolve round differently; composite decides by the latter.
   const float start = primary ? static_cast<float>(job.frame.primary.near_plane) : 0.0f;
   for (int i = 0; i < level.slots; ++i) level.rays.t_max[i] = (level.opaque_t[i] - start) * 1.00001f;
-  trace_all(job.frame, *job.translucent, level.rays, w.chunk_fragments);
+  trace_all(job.frame, *job.translucent, level.rays, HitsOnEdges::kOfOne, w.chunk_fragments);
   w.counts.rays_translucent += static_cast<uint64_t>(level.slots);
   for (const uint32_t ray : w.chunk_fragments.ray) w.fragment_slot.push_back(static_cast<int32_t>(ray));
 }

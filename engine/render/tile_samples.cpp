@@ -35,7 +35,7 @@ float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
 // grouped, as the rasterizer does.
 void trace_layers(const FrameJob& job, const SampleHits& seen, FragmentList& out) {
   FragmentList all;
-  trace_all(job.frame, *job.translucent, seen.rays, all);
+  trace_all(job.frame, *job.translucent, seen.rays, HitsOnEdges::kOfOne, all);
   out.clear();
   const SamplePlaces& places = job.frame.places;
   for (size_t i = 0; i < all.primitive.size(); ++i) {

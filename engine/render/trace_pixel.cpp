@@ -118,7 +118,7 @@ void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bo
   if (!known) {
     const float near_t = primary ? static_cast<float>(frame_.primary.near_plane) : 0.0f;
     rays.t_max[0] = (opaque_t - near_t) * 1.00001f;  // as in render/tile.cpp
-    trace_all(frame_, translucent_, rays, traced);
+    trace_all(frame_, translucent_, rays, HitsOnEdges::kOfOne, traced);
   }
   const FragmentList& list = known ? start.layers : traced;
   for (size_t i = 0; i < list.primitive.size(); ++i) {

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   if (!stats) return std::fprintf(stderr, "%s\n", stats.error().to_string().c_str()), 1;
 
   std::printf("%zu triangles, %016llx\n", scene.triangle_count(), static_cast<unsigned long long>(hash_image(picture.color)));
-  const auto middle = spanray::SceneQuery(scene).pixel(scene.cameras()[0], 64, 36, 32, 18);
+  const auto middle = spanray::SceneQuery(scene).pixel(scene.cameras()[0], settings, 32, 18);
   if (!middle || !middle.value()) return std::fprintf(stderr, "nothing in the middle of the picture\n"), 1;
   const std::string material(middle.value()->name.material);
   std::printf("in the middle: triangle %u of material %s\n", middle.value()->name.triangle, material.c_str());

@@ -31,7 +31,7 @@ inline Answers trace(TestFrame& t, const Bvh& bvh, const RayBatch& rays, Isa isa
   trace_closest(t.frame, bvh, rays, a.closest.data());
   trace_any(t.frame, bvh, rays, bits.data());
   FragmentList list;
-  trace_all(t.frame, bvh, rays, list);
+  trace_all(t.frame, bvh, rays, HitsOnEdges::kOfAll, list);
   for (size_t i = 0; i < n; ++i) a.any.push_back(bits[i / 32] >> (i % 32) & 1);
   for (size_t i = 0; i < list.ray.size(); ++i) {
     EXPECT_EQ(list.pixel[i], rays.pixel[list.ray[i]]);

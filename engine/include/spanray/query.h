@@ -67,7 +67,7 @@ struct QueryOptions {
 };
 
 // Asks one scene. Copies share its tree. All questions may be asked from several threads at once. Answers come from the tracer of
-// frames: watertight, ties to the lowest triangle, the same bits on every machine. Nothing is culled by its facing.
+// frames: watertight, ties to the lowest triangle, the same bits on every machine. Nothing is culled by its facing but by pixel().
 // Errors of all questions: no scene, numbers that are not finite or out of range, an instruction set that this machine lacks, out of
 // memory for the tree. A question that cannot be answered is never a miss.
 class SceneQuery {
@@ -85,9 +85,10 @@ class SceneQuery {
   // Whether a ray meets anything.
   Result<bool> any(const Ray& ray) const;
 
-  // What pixel (x, y) of a frame shows, x from 0 at the left, y from 0 at the top: the hit of that very frame's primary ray with
-  // Visibility::kRay, masks and screen-doors included. t is the view depth less the near plane.
-  Result<std::optional<RayHit>> pixel(const Camera& camera, int width, int height, int x, int y) const;
+  // What pixel (x, y) of the frame shows that these settings ask for, x from 0 at the left, y from 0 at the top: the hit of that very
+  // frame's primary ray with Visibility::kRay; masks, screen-doors, culling and filter are the frame's. t is the view depth less the near plane.
+  // The scene stands as at rest, whatever the time.
+  Result<std::optional<RayHit>> pixel(const Camera& camera, const Settings& frame, int x, int y) const;
 
   // The first contact of a moving sphere with any triangle; cut-outs, screen-doors and panes are solid. Never later than the true
   // contact: the sphere passes through nothing, however fast. A triangle that it touches at the start stops it only if it moves
