@@ -12,8 +12,6 @@
 namespace spanray::demo {
 namespace {
 
-constexpr int kMaxSide = 16384, kMaxThreads = 1024, kMaxBounces = 64;
-
 // The whole text as one finite number; independent of the locale.
 template <class T> bool parse_number(std::string_view text, T& value) {
   const char* end = text.data() + text.size();
@@ -27,8 +25,8 @@ void parse_size(const std::string& text, Settings& settings) {
   if (x == std::string::npos || !parse_number(std::string_view(text).substr(0, x), width) ||
       !parse_number(std::string_view(text).substr(x + 1), height))
     throw CLI::ValidationError("--size", text + " is not WIDTHxHEIGHT in pixels, such as 1280x720");
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
-    throw CLI::ValidationError("--size", text + " is out of range: each side must be 1 to " + std::to_string(kMaxSide));
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+    throw CLI::ValidationError("--size", text + " is out of range: each side must be 1 to " + std::to_string(kMaxImageSide));
   settings.width = width, settings.height = height;
 }
 

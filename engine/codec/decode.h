@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "spanray/result.h"
+#include "spanray/settings.h"
 
 namespace spanray {
-
-inline constexpr int kMaxImageSide = 16384;  // pixels
 
 // Samples as they stand in the file: row-major, top row first, channels interleaved, no color management.
 struct RawImage {

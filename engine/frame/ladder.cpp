@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/read_file.h"
 #include "frame/tiles.h"
+#include "spanray/settings.h"
 #include "spanray/stats.h"
 
 namespace spanray {
@@ -17,7 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMaxSide = 16384;
 constexpr uint32_t kBackground = 0xffffffffu;
 
 bool has_tiles(int rung) { return rung != static_cast<int>(Rung::kScene) && rung != static_cast<int>(Rung::kVertices); }
@@ -204,7 +204,7 @@ Result<Ladder> Ladder::read_json(const std::string& path) {
     return Error{"written under numeric contract " + std::to_string(contract) + ", this program has " +
                      std::to_string(kNumericContract) + ": their hashes cannot be compared", path};
   const int width = int_field(in, "width"), height = int_field(in, "height");
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) return wrong("width and height are not 1 to 16384");
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) return wrong("width and height are not 1 to 16384");
   if (int_field(in, "tile_size") != kTileSize) return wrong("tile_size is not " + std::to_string(kTileSize));
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   // Each pixel takes 28 characters; a small file must not make us allocate for a huge picture.

@@ -46,40 +46,33 @@ HWY_INLINE Beam make_beam(const RayPacket& p) {
   return b;
 }
 
-// The children that some ray may meet in [0, limit].
+// Of kLanes8 boxes, those that some ray may meet in [0, limit]. bound(row): rows as of BvhNode::bounds.
+template <class Bound> HWY_INLINE uint32_t beam_boxes(const Beam& beam, const Bound& bound) {
+  F8 near = f8(0.0f), far = f8(beam.limit);
+  for (int i = 0; i < beam.axes; ++i) {
+    const BeamAxis& a = beam.axis[i];
+    const F8 to_near = bound(a.near_row) - f8(a.near_origin), to_far = bound(a.far_row) - f8(a.far_origin);
+    near = cull_max(cull_min(to_near * f8(a.inv_least), to_near * f8(a.inv_greatest)), near);
+    far = cull_min(cull_max(to_far * f8(a.inv_least), to_far * f8(a.inv_greatest)), far);
+  }
+  return to_bits(near <= far);
+}
+
 HWY_INLINE uint32_t beam_children(const BvhNode& node, const Beam& beam) {
   uint32_t bits = 0;
-  for (int s = 0; s < kBvhWidth; s += kLanes8) {
-    F8 near = f8(0.0f), far = f8(beam.limit);
-    for (int i = 0; i < beam.axes; ++i) {
-      const BeamAxis& a = beam.axis[i];
-      const F8 to_near = F8::load(node.bounds[a.near_row] + s) - f8(a.near_origin);
-      const F8 to_far = F8::load(node.bounds[a.far_row] + s) - f8(a.far_origin);
-      near = cull_max(cull_min(to_near * f8(a.inv_least), to_near * f8(a.inv_greatest)), near);
-      far = cull_min(cull_max(to_far * f8(a.inv_least), to_far * f8(a.inv_greatest)), far);
-    }
-    bits |= to_bits(near <= far) << s;
-  }
+  for (int s = 0; s < kBvhWidth; s += kLanes8) bits |= beam_boxes(beam, [&](int row) HWY_ATTR { return F8::load(node.bounds[row] + s); }) << s;
   return bits;
 }
 
-// The triangles of a leaf that some ray may meet in [0, limit], by their boxes.
+// The triangles of a leaf, by their boxes.
 HWY_INLINE uint32_t beam_triangles(const TriangleBlock& block, const Beam& beam) {
   uint32_t bits = 0;
-  for (int s = 0; s < kBvhWidth; s += kLanes8) {
-    F8 near = f8(0.0f), far = f8(beam.limit);
-    for (int i = 0; i < beam.axes; ++i) {
-      const BeamAxis& a = beam.axis[i];
-      const bool forward = a.near_row < a.far_row;
-      const int k = forward ? a.near_row : a.far_row;
-      const F8 v0 = F8::load(block.vertex[0][k] + s), v1 = F8::load(block.vertex[1][k] + s), v2 = F8::load(block.vertex[2][k] + s);
-      const F8 low = cull_min(cull_min(v0, v1), v2), high = cull_max(cull_max(v0, v1), v2);
-      const F8 to_near = (forward ? low : high) - f8(a.near_origin), to_far = (forward ? high : low) - f8(a.far_origin);
-      near = cull_max(cull_min(to_near * f8(a.inv_least), to_near * f8(a.inv_greatest)), near);
-      far = cull_min(cull_max(to_far * f8(a.inv_least), to_far * f8(a.inv_greatest)), far);
-    }
-    bits |= to_bits(near <= far) << s;
-  }
+  for (int s = 0; s < kBvhWidth; s += kLanes8)
+    bits |= beam_boxes(beam, [&](int row) HWY_ATTR {
+              const int k = row % 3;
+              const F8 v0 = F8::load(block.vertex[0][k] + s), v1 = F8::load(block.vertex[1][k] + s), v2 = F8::load(block.vertex[2][k] + s);
+              return row < 3 ? cull_min(cull_min(v0, v1), v2) : cull_max(cull_max(v0, v1), v2);
+            }) << s;
   return bits;
 }
 

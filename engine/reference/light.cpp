@@ -7,11 +7,6 @@
 namespace spanray::reference {
 namespace {
 
-glm::dvec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
-
-constexpr int32_t kBlinnPhong =
-    0;  // the catalog's reflectance index of the MTL model; the only other one of its own is Lambert
-
 // Reflectance times cosine, 1/sr: to be multiplied by Kd and by Ks.
 struct Reflectance {
   double diffuse = 0, specular = 0;
@@ -29,13 +24,13 @@ Reflectance reflectance(int32_t model, const glm::dvec3& n, const glm::dvec3& l,
 }
 
 glm::dvec3 colored(const Surface& s, const Light& light, const Reflectance& r, double irradiance) {
-  return vec(light.intensity) * (s.diffuse * r.diffuse + s.specular * r.specular) * irradiance;
+  return to_dvec(light.intensity) * (s.diffuse * r.diffuse + s.specular * r.specular) * irradiance;
 }
 
 // Once for the whole face, at its middle (Bouknight 1970).
 glm::dvec3 flat(const SceneData& scene, const Surface& s, int32_t model, const Light& light, const glm::dvec3& viewer) {
   glm::dvec3 middle(0);
-  for (const uint32_t v : scene.triangles[s.primitive].vertex) middle += vec(scene.vertices[v].position) * (1 / 3.0);
+  for (const uint32_t v : scene.triangles[s.primitive].vertex) middle += to_dvec(scene.vertices[v].position) * (1 / 3.0);
   const Incidence in = incidence(light, middle);
   if (!(dot3(s.geometric, in.direction) > 0)) return glm::dvec3(0);
   const Reflectance r = reflectance(model, s.geometric, in.direction, normalize3(viewer - middle, glm::dvec3(0)), s.shininess);
@@ -47,11 +42,11 @@ glm::dvec3 flat(const SceneData& scene, const Surface& s, int32_t model, const L
 glm::dvec3 gouraud(const SceneData& scene, const Surface& s, const Material& m, const Light& light, const glm::dvec3& viewer) {
   Reflectance sum;
   glm::dvec3 normals(0);
-  for (const uint32_t v : scene.triangles[s.primitive].vertex) normals += vec(scene.vertices[v].normal);
+  for (const uint32_t v : scene.triangles[s.primitive].vertex) normals += to_dvec(scene.vertices[v].normal);
   const double side = dot3(normals, s.geometric) >= 0 ? 1 : -1;
   for (int k = 0; k < 3; ++k) {
     const Vertex& corner = scene.vertices[scene.triangles[s.primitive].vertex[k]];
-    const glm::dvec3 position = vec(corner.position), normal = vec(corner.normal) * side;
+    const glm::dvec3 position = to_dvec(corner.position), normal = to_dvec(corner.normal) * side;
     const Incidence in = incidence(light, position);
     if (!(dot3(normal, in.direction) > 0)) continue;
     const Reflectance r =
@@ -64,8 +59,8 @@ glm::dvec3 gouraud(const SceneData& scene, const Surface& s, const Material& m, 
 }  // namespace
 
 Incidence incidence(const Light& light, const glm::dvec3& position) {
-  if (light.kind == static_cast<int32_t>(LightKind::kDirectional)) return {-vec(light.direction), 1};
-  const glm::dvec3 way = vec(light.position) - position;
+  if (light.kind == static_cast<int32_t>(LightKind::kDirectional)) return {-to_dvec(light.direction), 1};
+  const glm::dvec3 way = to_dvec(light.position) - position;
   const double d = length3(way);
   if (d < 0x1p-62) return {};
   const double falloff = light.attenuation[0] + light.attenuation[1] * d + light.attenuation[2] * d * d;
@@ -77,12 +72,12 @@ glm::dvec3 start_above(const Surface& s) { return s.position + s.geometric * s.c
 // Ends a little before a point light, so that a lamp modelled around it casts no shadow by touching it.
 Way way_to(const Light& light, const glm::dvec3& origin) {
   if (light.kind == static_cast<int32_t>(LightKind::kDirectional))
-    return {{origin, -vec(light.direction)}, std::numeric_limits<double>::infinity()};
-  return {{origin, vec(light.position) - origin}, 1 - 0x1p-16};
+    return {{origin, -to_dvec(light.direction)}, std::numeric_limits<double>::infinity()};
+  return {{origin, to_dvec(light.position) - origin}, 1 - 0x1p-16};
 }
 
 glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s) {
-  return s.ambient * vec(scene.ambient_radiance) + s.emission;
+  return s.ambient * to_dvec(scene.ambient_radiance) + s.emission;
 }
 
 bool faces(const Surface& s, const Light& light) { return dot3(s.geometric, incidence(light, s.position).direction) > 0; }

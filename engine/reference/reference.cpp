@@ -16,7 +16,6 @@ namespace reference {
 namespace {
 
 constexpr int kBlock = 32;  // pixels a side: what a task renders
-constexpr int kBlinnPhong = 0, kLambert = 1;
 
 // A pinhole camera: rays through positions of the picture, y down, of view depth 1.
 struct View {
@@ -144,7 +143,7 @@ class Renderer {
     const double length = length3(ray.line.direction);
     const glm::dvec3 d = -s.view, &n = s.normal;
     glm::dvec3 r = d - n * (2 * dot3(d, n));
-    constexpr double kHorizon = 1.0 / 1024;  // a shading normal may point the ray into its own surface
+    // A shading normal may point the ray into its own surface.
     r += s.geometric * std::max(kHorizon - dot3(s.geometric, r), 0.0);
     const auto turned = [&](const glm::dvec3& derivative) {
       const glm::dvec3 dd = of_unit(d, length, derivative);
@@ -183,8 +182,8 @@ uint8_t srgb_byte(double linear) {
 }
 
 Result<void> check(const SceneData& scene, const Settings& settings, int grid) {
-  constexpr int kMaxSide = 16384, kMaxGrid = 64;
-  if (settings.width < 1 || settings.height < 1 || settings.width > kMaxSide || settings.height > kMaxSide)
+  constexpr int kMaxGrid = 64;
+  if (settings.width < 1 || settings.height < 1 || settings.width > kMaxImageSide || settings.height > kMaxImageSide)
     return Error{"reference: a picture has 1 to 16384 pixels a side"};
   if (!(std::fabs(settings.time) <= kMostSeconds)) return Error{"reference: the time is at most 1e6 seconds either way"};
   if (!sample_count_ok(settings.samples) || grid < 0 || grid > kMaxGrid)

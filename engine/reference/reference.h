@@ -1,5 +1,5 @@
 // The ground truth: the renderer's model once more, exactly. Plain code in double, one ray at a time, without SIMD. It shares
-// with the fast path the scene and the places of samples in a pixel, nothing else.
+// with the fast path the scene (its parts where they stand at a time, its default light) and the places of samples in a pixel, nothing else.
 #pragma once
 #include <functional>
 

@@ -6,11 +6,9 @@
 namespace spanray::reference {
 namespace {
 
-glm::dvec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
 double max_abs(const glm::dvec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
-// A shading normal below this cosine to the geometric one is lifted to it.
-constexpr double kHorizon = 1.0 / 1024;
+// A shading normal below the horizon is lifted to it.
 glm::dvec3 above_horizon(const glm::dvec3& n, const glm::dvec3& geometric) {
   const double cosine = dot3(n, geometric);
   return cosine < kHorizon ? normalize3(n + geometric * (kHorizon - cosine), geometric) : n;
@@ -63,7 +61,7 @@ struct Surfaces::Point {
 Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
   const Triangle& triangle = scene_.triangles[primitive];
   Point p;
-  for (int k = 0; k < 3; ++k) p.v[k] = vec(scene_.vertices[triangle.vertex[k]].position);
+  for (int k = 0; k < 3; ++k) p.v[k] = to_dvec(scene_.vertices[triangle.vertex[k]].position);
   p.edge1 = p.v[1] - p.v[0], p.edge2 = p.v[2] - p.v[0], p.normal = cross3(p.edge1, p.edge2);
   const glm::dvec3 &d = ray.line.direction, s = ray.line.origin - p.v[0];
   const double det = dot3(p.edge1, cross3(d, p.edge2));
@@ -98,9 +96,9 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
 bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
   const Triangle& triangle = scene_.triangles[primitive];
   if (settings_.culling == Culling::kBack) {
-    const glm::dvec3 v0 = vec(scene_.vertices[triangle.vertex[0]].position);
+    const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
     const glm::dvec3 n =
-        cross3(vec(scene_.vertices[triangle.vertex[1]].position) - v0, vec(scene_.vertices[triangle.vertex[2]].position) - v0);
+        cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0, to_dvec(scene_.vertices[triangle.vertex[2]].position) - v0);
     const double side = dot3(n, ray.line.origin - v0);
     if (!((triangle.bits & kTriangleFlipped) != 0 ? side < 0 : side > 0)) return false;
   }
@@ -123,7 +121,7 @@ bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
 glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive) const {
   glm::dvec3 sum(0), blend(0);
   for (int k = 0; k < 3; ++k) {
-    const glm::dvec3 corner = vec(scene_.vertices[scene_.triangles[primitive].vertex[k]].normal);
+    const glm::dvec3 corner = to_dvec(scene_.vertices[scene_.triangles[primitive].vertex[k]].normal);
     sum += corner, blend += corner * point.weight[k];
   }
   if (dot3(sum, point.geometric) < 0) blend = -blend;
@@ -181,8 +179,8 @@ Surface Surfaces::at(const Ray& ray, uint32_t primitive) const {
   s.normal = settings_.shading == Shading::kFlat ? s.geometric : interpolated_normal(p, primitive);
   if (settings_.bump && settings_.shading == Shading::kPhong) s.normal = bumped(p, m, s.normal);
   s.normal = above_horizon(s.normal, s.geometric);
-  s.ambient = vec(m.ambient), s.diffuse = vec(m.diffuse), s.specular = vec(m.specular), s.emission = vec(m.emission);
-  if (role(primitive) != Role::kBlended) s.mirror = vec(m.mirror);
+  s.ambient = to_dvec(m.ambient), s.diffuse = to_dvec(m.diffuse), s.specular = to_dvec(m.specular), s.emission = to_dvec(m.emission);
+  if (role(primitive) != Role::kBlended) s.mirror = to_dvec(m.mirror);
   s.shininess = m.shininess, s.opacity = m.opacity;
   apply_maps(p, m, s);
   // A generous bound on the rounding of position, in double: some thousand units in the last place of what it was made from.

@@ -5,6 +5,13 @@
 
 namespace spanray::reference {
 
+// The catalog's reflectances that the reference knows, by index.
+inline constexpr int32_t kBlinnPhong = 0, kLambert = 1;
+// Least cosine of shading normals, and of mirror rays, to the geometric normal.
+inline constexpr double kHorizon = 1.0 / 1024;
+
+inline glm::dvec3 to_dvec(const float* v) { return {v[0], v[1], v[2]}; }
+
 // What a material means to visibility under some settings (docs/decisions/0003-transparency.md).
 enum class Role { kOpaque, kMask, kScreenDoor, kBlended };
 Role role_of(const Material& material, const Settings& settings);

@@ -118,7 +118,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.word("filter", &s.filter);
   t.word("transparency", &s.transparency);
   t.word("culling", &s.culling);
-  t.integer("max_bounces", 0, 64, &s.max_bounces);
+  t.integer("max_bounces", 0, kMaxBounces, &s.max_bounces);
   if (int samples = 0; t.integer("samples", 1, 16, &samples)) {
     if (sample_count_ok(samples)) s.samples = samples;
     else t.fail("samples", "must be 1, 4, 8 or 16");
@@ -127,8 +127,8 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.boolean("textures", &s.textures);
   t.boolean("bump", &s.bump);
   t.number("time", {-kMostSeconds, kMostSeconds}, &s.time);
-  t.integer("width", 1, 16384, &s.width);
-  t.integer("height", 1, 16384, &s.height);
+  t.integer("width", 1, kMaxImageSide, &s.width);
+  t.integer("height", 1, kMaxImageSide, &s.height);
 }
 
 void read_materials(TomlTable& root, SceneFile& scene, TomlErrors& errors) {

@@ -24,7 +24,10 @@ constexpr bool sample_count_ok(int count) {
   return false;
 }
 
-inline constexpr double kMostSeconds = 1e6;  // |Settings::time|
+// Ranges of Settings.
+inline constexpr int kMaxImageSide = 16384;  // pixels, also of the pictures that are read
+inline constexpr int kMaxBounces = 64, kMaxThreads = 1024;
+inline constexpr double kMostSeconds = 1e6;  // |time|
 
 struct Settings {
   int width = 1280, height = 720;  // pixels, 1 to 16384
