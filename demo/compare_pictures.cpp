@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "command.h"
 #include "core/atomic_file.h"
@@ -82,7 +83,10 @@ void print(const ImageDifference& d, const Metrics& m, const Image& a, const Ima
 
 Result<void> check_files(const CompareOptions& options) {
   std::error_code none;
+  std::set<std::filesystem::path> seen;
   for (const auto& [option, file] : options.written()) {
+    if (std::filesystem::path(file).extension() != ".png") throw UsageError("compare: the file of " + option + " must end in .png: " + file);
+    if (!seen.insert(std::filesystem::weakly_canonical(file, none)).second) throw UsageError("compare: two pictures would be written to " + file);
     for (const std::string& input : {options.a, options.b})
       if (std::filesystem::equivalent(file, input, none)) throw UsageError("compare: " + option + " would replace " + input + ", which is compared");
     if (auto writable = check_writable(file); !writable) return writable;

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/number_text.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
@@ -39,6 +40,9 @@ MetricLimit parse_metric_limit(const std::string& text) {
   const auto [stop, error] = std::from_chars(begin, end, limit.value);
   if (begin == end || error != std::errc() || stop != end || !std::isfinite(limit.value))
     throw CLI::ValidationError("--max-error", "'" + text + "' is not METRIC=VALUE with a number, such as flip=0.02");
+  if (limit.value < limit.metric->low || limit.value > limit.metric->high)
+    throw CLI::ValidationError("--max-error", "'" + text + "': " + name + " is " + number_text(limit.metric->low) +
+                               (limit.metric->high == kUnbounded ? " or more" : " to " + number_text(limit.metric->high)));
   return limit;
 }
 

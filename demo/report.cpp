@@ -65,7 +65,20 @@ Result<std::vector<PageImage>> write_pictures(const std::string& folder, const R
   return images;
 }
 
+// The pictures of an earlier report in this folder.
+void remove_old_pictures(const std::string& folder) {
+  std::error_code none;
+  if (!fs::exists(folder + "/report.json", none)) return;
+  std::vector<fs::path> old;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".png") && (name.starts_with("picture-") || name.starts_with("flip-") || name.starts_with("error-"))) old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path, none);
+}
+
 Result<void> write_report(const std::string& folder, const Report& report) {
+  remove_old_pictures(folder);
   Result<std::vector<PageImage>> images = write_pictures(folder, report);
   if (!images) return images.error();
   const std::string json = report_json(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -75,9 +88,9 @@ Result<void> write_report(const std::string& folder, const Report& report) {
 }
 
 int run_report(const ReportCommand& command) {
-  if (auto made = make_folder(command.out); !made) return fail(made.error());
   Result<Job> job = command.frame.load();
   if (!job) return fail(job.error());
+  if (auto made = make_folder(command.out); !made) return fail(made.error());
   for (const std::string& text : job.value().messages) message(text);
   Report report;
   report.scene_path = command.frame.scene_path(), report.command = command_line();

@@ -1,10 +1,11 @@
 #include "report_data.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 
 #include "command.h"
 #include "core/counted.h"
@@ -29,6 +30,15 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
   return out + "\"";
+}
+
+// As a POSIX shell reads it back.
+std::string shell_word(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || (c != 0 && std::strchr("-_./=,:+%@", c) != nullptr); };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
 }
 
 // Infinity, the PSNR of equal pictures, is no number of JSON.
@@ -83,7 +93,8 @@ std::string report_csv(const Report& report) {
 Json report_json(const Report& report) {
   Json out;
   for (const auto& [key, value] : report.machine) out["about"][key] = value;
-  out["ranked_by"] = "flip";
+  for (const MetricWord& word : kMetricWords)
+    if (word.value == kRankedBy) out["ranked_by"] = word.name;
   for (const Knob& knob : report.knobs) {
     Json k = {{"name", knob.name}, {"what", knob.what}, {"used", knob.absent.empty()}};
     if (!knob.absent.empty()) k["why_not"] = knob.absent;
@@ -133,9 +144,8 @@ std::vector<std::string> find_not_modelled(const Job& job) {
 
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  while (!text.empty() && text.back() == '\0') text.pop_back();
-  std::replace(text.begin(), text.end(), '\0', ' ');
+  std::string text;
+  for (std::string word; std::getline(file, word, '\0');) text += (text.empty() ? "" : " ") + shell_word(word);
   return text;
 }
 

@@ -33,7 +33,7 @@ nlohmann::ordered_json report_json(const Report& report);
 std::vector<std::string> find_not_modelled(const Job& job);
 // Of the machine, the program and the command.
 std::vector<std::pair<std::string, std::string>> describe_machine(const Report& report);
-// The command line of this process.
+// The command line of this process, for a POSIX shell.
 std::string command_line();
 
 }  // namespace spanray::demo

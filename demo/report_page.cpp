@@ -82,6 +82,12 @@ std::string summary(const Report& r) {
           milliseconds(fastest->ms) + " ms and errs by " + short_number(fastest->error) + "; the one that errs least, <i>" +
           name_of(r, static_cast<int>(best - all.begin())) + "</i>, takes " + milliseconds(best->ms) + " ms and errs by " +
           short_number(best->error) + ".</p>\n";
+  int most_samples = 1;
+  for (const Measured& m : r.trade.settings) most_samples = std::max(most_samples, m.candidate.settings.samples);
+  if (const int truth = r.options.grid * r.options.grid; truth <= most_samples)
+    text += "<p class=\"warn\">The ground truth has " + std::to_string(truth) + " samples a pixel, the finest setting " +
+            std::to_string(most_samples) +
+            ": what settings with many samples err is in part what the truth errs. A larger --grid tells them apart.</p>\n";
   const auto disturbed = std::count_if(r.trade.settings.begin(), r.trade.settings.end(),
                                        [](const Measured& m) { return m.p95_ms() > 1.5 * m.median_ms(); });
   if (disturbed > 0)
@@ -171,7 +177,7 @@ std::string knob_table(const Report& r) {
   }
   text +=
       "<tr class=\"group\"><td colspan=\"15\">ladder <span>from every knob at its cheapest to every knob exact, one after the "
-      "other</span></td></tr>\n" +
+      "other; steps that equal a row above are left out</span></td></tr>\n" +
       rows_of("ladder");
   return text + "</table></div>\n";
 }

@@ -33,23 +33,14 @@ class Progress {
   const char* const what_;
 };
 
-// What the frames of one setting are rendered with.
-struct Bench {
-  std::unique_ptr<Renderer> renderer = std::make_unique<Renderer>();
-  Framebuffer picture;
-  Result<FrameStats> frame(const Job& job, const Settings& settings, const FrameRequest& request = {}) {
-    return renderer->render(job.scene, job.camera, settings, picture, request);
-  }
-};
-
 Result<void> measure_times(const Job& job, const TradeOptions& options, std::vector<Measured>& list) {
   const Progress progress(options, "measuring");
-  std::vector<Bench> benches(list.size());
+  Renderer renderer;  // one for all: trees of large scenes are large; what a setting changes is made in the frame that is not measured
+  Framebuffer picture;
   const auto frames = [&](size_t i, int count, bool keep) -> Result<void> {
     for (int k = 0; k < count; ++k) {
-      Result<FrameStats> stats = benches[i].frame(job, list[i].candidate.settings);
+      Result<FrameStats> stats = renderer.render(job.scene, job.camera, list[i].candidate.settings, picture);
       if (!stats) return stats.error();
-      list[i].bvh_build_ms += stats.value().ms.bvh_build;
       if (keep) list[i].frames.push_back(std::move(stats.value()));
     }
     return {};
@@ -83,11 +74,14 @@ Result<void> measure_errors(const Job& job, const TradeOptions& options, const I
   Parallel parallel(job.settings.threads);
   for (size_t i = 0; i < list.size(); ++i) {
     Measured& m = list[i];
-    Bench bench;
+    Renderer renderer;  // of its own: it builds what this setting needs, and no more
+    Framebuffer picture;
     FrameRequest request;
     request.primitive = true;
-    if (auto stats = bench.frame(job, m.candidate.settings, request); !stats) return stats.error();
-    m.picture = bench.picture.color;
+    const Result<FrameStats> stats = renderer.render(job.scene, job.camera, m.candidate.settings, picture, request);
+    if (!stats) return stats.error();
+    m.bvh_build_ms = stats.value().ms.bvh_build;
+    m.picture = std::move(picture.color);
     Result<Metrics> error = measure_pictures(truth, m.picture, parallel, &m.maps);
     if (!error) return error.error();
     m.error = error.value();
@@ -96,7 +90,7 @@ Result<void> measure_errors(const Job& job, const TradeOptions& options, const I
       if (!alone) return alone.error();
       m.error_alone = alone.value();
       uint64_t wrong = 0;
-      for (size_t k = 0; k < center.primitive.size(); ++k) wrong += center.primitive[k] != bench.picture.primitive[k];
+      for (size_t k = 0; k < center.primitive.size(); ++k) wrong += center.primitive[k] != picture.primitive[k];
       m.wrong_ids = wrong;
     }
     progress(static_cast<double>(i + 1) / static_cast<double>(list.size()));

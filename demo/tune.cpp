@@ -1,5 +1,6 @@
 // spanray tune: the cheapest settings that keep a budget of time or error, along the scene's camera path.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -91,10 +92,10 @@ std::string settings_toml(const Job& job, const Settings& settings, const std::s
   for (const auto& [key, value] : settings_words(settings)) {
     if (key == "size")
       text += "width = " + std::to_string(settings.width) + "\nheight = " + std::to_string(settings.height) + "\n";
-    else if (key == "max_bounces" || key == "samples" || key == "time")
-      text += key + " = " + value + "\n";
-    else if (key == "textures" || key == "bump")
+    else if (value == "on" || value == "off")
       text += key + " = " + (value == "on" ? "true" : "false") + "\n";
+    else if (value.find_first_not_of("-+.0123456789e") == std::string::npos)
+      text += key + " = " + value + "\n";
     else
       text += key + " = \"" + value + "\"\n";
   }
@@ -115,6 +116,7 @@ std::string words_text(const Settings& settings) {
 }
 
 int run_tune(const TuneCommand& command) {
+  if (std::isnan(command.max_ms)) throw UsageError("tune: --max-ms is not a number");
   if ((command.max_ms > 0) == !command.limits.empty())
     throw UsageError("tune: give one budget, --max-ms X or --max-error METRIC=VALUE");
   if (command.limits.size() > 1) throw UsageError("tune: one --max-error is enough");

@@ -19,7 +19,8 @@ class Search {
     best_ = settings, cost_ = *cost;
     return true;
   }
-  // Takes the turn that is `before` all others, of those that are `allowed`; again and again while there is one.
+  // Takes the turn that is `before` all others and where it stands, of those that are `allowed`; again and again while there is one. It
+  // ends: no settings are taken twice.
   template <class Allowed, class Before>
   bool climb(const Allowed& allowed, const Before& before) {
     for (bool moved = true; moved;) {
@@ -33,7 +34,7 @@ class Search {
           choice.set(turned);
           const Cost* cost = measured(turned);
           if (cost == nullptr) return false;
-          if (!allowed(*cost, was) || (moved && !before(*cost, cost_))) continue;
+          if (!allowed(*cost, was) || !before(*cost, cost_)) continue;
           best_ = turned, cost_ = *cost, moved = true;
         }
       }
@@ -74,7 +75,11 @@ Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, con
     if (!search.start(cheapest_settings(knobs, settings))) return search.error();
     // Techniques that cost most where they are useless (textures off are no faster everywhere): the way down comes first.
     if (search.cost().ms > budget &&
-        !search.climb([=](const Cost& c, const Cost& was) { return c.ms <= budget || c.ms < (1 - kNoise) * was.ms; }, faster))
+        !search.climb(
+            [=](const Cost& c, const Cost& was) {
+              return was.ms > budget && (c.ms <= budget || c.ms < (1 - kNoise) * was.ms);
+            },
+            faster))
       return search.error();
     if (search.cost().ms > budget) return search.result(false);
     if (!search.climb([&](const Cost& c, const Cost& was) { return c.ms <= budget && c.error < was.error; }, errs_less))

@@ -64,6 +64,8 @@ TEST_F(ProgramCompare, DifferencePictureIsWritten) {
   EXPECT_NE(pixel(5), pixel(6));
   EXPECT_EQ(pixel(6), pixel(7));
   EXPECT_EQ(1, run({"a.png", "b.png", "--diff", "no/d.png"}).code);
+  EXPECT_EQ(2, run({"a.png", "b.png", "--diff", "d.jpg"}).code);
+  EXPECT_EQ(2, run({"a.png", "b.png", "--diff", "d.png", "--flip-map", "./d.png"}).code);
 }
 
 TEST_F(ProgramCompare, EveryMetricIsPrintedAndMayBeBounded) {
@@ -89,6 +91,7 @@ TEST_F(ProgramCompare, EveryMetricIsPrintedAndMayBeBounded) {
     EXPECT_EQ(2, bad.code) << nonsense;
     EXPECT_EQ("", bad.out);
   }
+  for (const char* impossible : {"flip=-1", "flip=1.5", "ssim=2", "max=256"}) EXPECT_EQ(2, run({"a.png", "b.png", "--max-error", impossible}).code) << impossible;
   EXPECT_NE(std::string::npos, run({"a.png", "b.png", "--max-error", "flop=1"}).error.find("did you mean 'flip'?"));
 }
 

@@ -77,6 +77,15 @@ TEST_F(Tuner, KeepsABoundOnTheErrorAtTheLeastTime) {
   EXPECT_LE(tuned(false, 0.31).settings.max_bounces, 1) << "more bounces are dearer and no better";
 }
 
+TEST_F(Tuner, ALittleIsEnoughWhereItKeepsTheBudget) {
+  const Result<demo::Tuned> t = demo::tune(knobs_, settings_, {true, 9.95}, [](const Settings& s) {
+    return Result<Cost>(Cost{s.shading == Shading::kPhong ? 9.94 : 10.0, 0.5});
+  });
+  ASSERT_TRUE(t);
+  EXPECT_TRUE(t.value().kept);
+  EXPECT_EQ(t.value().cost.ms, 9.94);
+}
+
 TEST_F(Tuner, SaysWhenNothingKeepsTheBudget) {
   const demo::Tuned slow = tuned(true, 9), bad = tuned(false, 0.2);
   EXPECT_FALSE(slow.kept);
@@ -134,6 +143,11 @@ TEST_F(ProgramTune, WrongUse) {
   EXPECT_EQ(2, run({"--max-ms", "-5"}).code);
   EXPECT_EQ(2, run({"--max-error", "flop=1"}).code);
   EXPECT_EQ(2, run({"--max-ms", "5", "--out", "t.txt"}).code);
+  EXPECT_EQ(2, run({"--max-ms", "nan"}).code);
+  EXPECT_EQ(2, run({"--max-ms", "5", "--shading", "flat"}).code) << "it turns that itself";
+  const std::string before = read_text(scene_);
+  EXPECT_EQ(2, run({"--max-ms", "100000", "--out", scene_}).code);
+  EXPECT_EQ(before, read_text(scene_));
 }
 
 TEST_F(ProgramTune, ASettingsFileIsChecked) {

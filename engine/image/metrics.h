@@ -43,12 +43,17 @@ struct MetricWord {
   double Metrics::*value;
   bool more_is_better;
   const char* unit;
+  double low, high;  // what it can be
 };
-inline constexpr MetricWord kMetricWords[] = {
-    {"max", &Metrics::max, false, "of 255"},    {"p99.9", &Metrics::p99_9, false, "of 255"},
-    {"over_1", &Metrics::over_1, false, "share of pixels"}, {"rmse_linear", &Metrics::rmse_linear, false, "1 = white"},
-    {"relmse", &Metrics::relmse, false, ""},    {"psnr_db", &Metrics::psnr_db, true, "dB"},
-    {"ssim", &Metrics::ssim, true, ""},         {"flip", &Metrics::flip, false, ""}};
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+inline constexpr MetricWord kMetricWords[] = {{"max", &Metrics::max, false, "of 255", 0, 255},
+                                              {"p99.9", &Metrics::p99_9, false, "of 255", 0, 255},
+                                              {"over_1", &Metrics::over_1, false, "share of pixels", 0, 1},
+                                              {"rmse_linear", &Metrics::rmse_linear, false, "1 = white", 0, kUnbounded},
+                                              {"relmse", &Metrics::relmse, false, "", 0, kUnbounded},
+                                              {"psnr_db", &Metrics::psnr_db, true, "dB", 0, kUnbounded},
+                                              {"ssim", &Metrics::ssim, true, "", -1, 1},
+                                              {"flip", &Metrics::flip, false, "", 0, 1}};
 
 // What the metrics are means of, a value a pixel: the largest difference of a channel in codes, and FLIP.
 struct MetricMaps { std::vector<float> difference, flip; };
