@@ -1,18 +1,14 @@
 // embree_bench SCENE: our tracer and Embree 3 answer the same rays of one of our frames, in turns; Mrays/s, and how far they agree.
 // A table on stdout. Exit 0 done, 1 could not (or they disagree and --require-agreement was given), 2 wrong usage.
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstdio>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
 #include "embree_tracer.h"
 #include "frame_options.h"
 #include "measure.h"
-#include "ray/bvh_data.h"
-#include "ray/triangle_test.h"
+#include "ray_agreement.h"
 #include "ray_classes.h"
 
 namespace spanray::peers {
@@ -80,36 +76,11 @@ void ask(const Asked& asked, const RayClass& c, Parallel& parallel, Answers& a) 
   });
 }
 
-// t of a ray and the triangle that it hits, as our test finds it; in units of the ray's direction.
-double exact_t(const SceneData& scene, const RayBatch& rays, size_t i, uint32_t primitive) {
-  float origin[3], direction[3], corners[9];
-  for (size_t k = 0; k < 3; ++k) origin[k] = rays.origin[k][i], direction[k] = rays.direction[k][i];
-  for (size_t v = 0; v < 3; ++v)
-    for (size_t k = 0; k < 3; ++k) corners[3 * v + k] = scene.vertices[scene.triangles[primitive].vertex[v]].position[k];
-  TraceRay ray;
-  double t = 0;
-  if (!prepare_ray(origin, direction, rays.t_max[i], ray) || !hit_triangle(ray, TriangleView{corners, 3, 1}, t)) return -1;
-  const double largest = std::max(std::fabs(direction[0]), std::max(std::fabs(direction[1]), std::fabs(direction[2])));
-  return std::ldexp(t, -std::ilogb(largest));  // counted in the direction scaled to [1, 2)
-}
-
-// Equal: the same answer; for closest hits the same triangle, or one at the same distance.
 uint64_t count_different(const SceneData& scene, const RayClass& c, const Answers& ours, const Answers& theirs) {
-  constexpr double kSameDistance = 1e-6;
   uint64_t different = 0;
-  for (size_t p = 0; p < c.parts.size(); ++p) {
-    for (size_t i = 0; i < static_cast<size_t>(c.parts[p].count); ++i) {
-      if (c.any_hit) {
-        different += ((ours.primitive[p][i / 32] ^ theirs.primitive[p][i / 32]) >> (i % 32)) & 1u;
-        continue;
-      }
-      const uint32_t a = ours.primitive[p][i], b = theirs.primitive[p][i];
-      if (a == b) continue;
-      if (a == kNoPrimitive || b == kNoPrimitive) { ++different; continue; }
-      const double t = exact_t(scene, c.parts[p], i, a);
-      if (!(std::fabs(t - static_cast<double>(theirs.t[p][i])) <= kSameDistance * t)) ++different;
-    }
-  }
+  for (size_t p = 0; p < c.parts.size(); ++p)
+    different += c.any_hit ? different_bits(c.parts[p].count, ours.primitive[p].data(), theirs.primitive[p].data())
+                           : different_hits(scene, c.parts[p], ours.primitive[p].data(), theirs.primitive[p].data(), theirs.t[p].data());
   return different;
 }
 
@@ -153,12 +124,7 @@ const Cell& best(const std::vector<Cell>& cells, bool robust) {
 
 double agreement(const Cell& cell, size_t rays) { return 1 - static_cast<double>(cell.different) / static_cast<double>(std::max<size_t>(rays, 1)); }
 
-std::string name_of(const Options& o) {
-  if (!o.label.empty()) return o.label;
-  const std::string& path = o.frame.scene_path();
-  const size_t slash = path.find_last_of('/') + 1;
-  return path.substr(slash, path.rfind('.') - slash);
-}
+std::string name_of(const Options& o) { return scene_name(o.label, o.frame.scene_path()); }
 
 void print_header() {
   std::printf("| scene | threads | rays | Mrays | ours, Mrays/s | Embree, best mode | Embree robust, best mode | ours : Embree | ours : robust | "
@@ -221,7 +187,7 @@ int compare(const CLI::App& app, const Options& o) {
               robust.value()->build_ms() / ours.build_ms);
   if (!o.json.empty())
     if (Result<void> done = append_line(o.json, line.dump()); !done) return fail(app, done.error());
-  if (o.require_agreement && least < 0.999)
+  if (o.require_agreement && least < kEnoughRays)
     return fail(app, Error{"Embree's robust tree has our answer for only " + std::to_string(100 * least) + " % of the rays; 99.9 % are needed"});
   return demo::kDone;
 }

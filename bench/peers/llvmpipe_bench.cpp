@@ -148,12 +148,7 @@ void restrict_settings(Settings& s) {
   if (s.threads == 0) s.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-std::string name_of(const Options& o) {
-  if (!o.label.empty()) return o.label;
-  const std::string& path = o.frame.scene_path();
-  const size_t slash = path.find_last_of('/') + 1;
-  return path.substr(slash, path.rfind('.') - slash);
-}
+std::string name_of(const Options& o) { return scene_name(o.label, o.frame.scene_path()); }
 
 void print_line(const Options& o, const Settings& s, const Comparison& c) {
   if (o.header) {

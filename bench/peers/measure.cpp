@@ -19,6 +19,12 @@ double read_clock(clockid_t clock) {
 double wall_ms() { return read_clock(CLOCK_MONOTONIC); }
 double cpu_ms() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 
+std::string scene_name(const std::string& label, const std::string& path) {
+  if (!label.empty()) return label;
+  const size_t slash = path.find_last_of('/') + 1;
+  return path.substr(slash, path.rfind('.') - slash);
+}
+
 Result<void> append_line(const std::string& path, const std::string& line) {
   std::ofstream file(path, std::ios::app);
   file << line << "\n";

@@ -31,6 +31,9 @@ inline double median(std::vector<double> v) {
   return *middle;
 }
 
+// What the table calls a scene: its label, or the name of its file.
+std::string scene_name(const std::string& label, const std::string& path);
+
 // Adds a line to a file of JSON lines.
 Result<void> append_line(const std::string& path, const std::string& line);
 
