@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "core/read_file.h"
 #include "frame_options.h"
+#include "hard_report.h"
 #include "image/false_color.h"
 #include "picture.h"
 #include "progress_line.h"
@@ -24,16 +25,9 @@ struct ReportCommand {
   FrameOptions frame;
   std::string out;
   TradeOptions trade;
+  bool hard_cases = false;
+  HardReportOptions hard;
 };
-
-// The folder for the report: made if need be, with room for its page.
-Result<void> make_folder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    return Error{"cannot make this folder: " + (error ? error.message() : std::string("it is a file")), folder};
-  return check_writable(folder + "/report.html");
-}
 
 // Writes a picture and gives back the bytes of the file.
 Result<std::string> write_picture(const std::string& path, const Image& image,
@@ -88,9 +82,12 @@ Result<void> write_report(const std::string& folder, const Report& report) {
 }
 
 int run_report(const ReportCommand& command) {
+  if (command.hard_cases) return run_hard_report(command.hard, command.out);
+  if (command.frame.scene_path().empty()) throw UsageError("report: SCENE is required");
+  if (command.out.empty()) throw UsageError("report: --out is required");
   Result<Job> job = command.frame.load();
   if (!job) return fail(job.error());
-  if (auto made = make_folder(command.out); !made) return fail(made.error());
+  if (auto made = make_report_folder(command.out, "report.html"); !made) return fail(made.error());
   for (const std::string& text : job.value().messages) message(text);
   Report report;
   report.scene_path = command.frame.scene_path(), report.command = command_line();
@@ -112,6 +109,19 @@ int run_report(const ReportCommand& command) {
   return kDone;
 }
 
+// All other options belong to a SCENE.
+void add_hard_cases(CLI::App& command, ReportCommand& options) {
+  CLI::Option* const hard = command.add_flag(
+      "--hard-cases", options.hard_cases,
+      "No SCENE: measures every hard case of rasterizing, texturing, shading and tracing, and prints the table; --out writes it as "
+      "hard-cases.html, .csv and .json. Exit 1 where one fails");
+  for (CLI::Option* option : command.get_options())
+    if (option != hard && option != command.get_help_ptr() && option->get_name() != "--out") hard->excludes(option);
+  command.add_flag("--quick", options.hard.quick, "With --hard-cases: fewer of everything")->needs(hard);
+  command.add_option("--only", options.hard.only, "With --hard-cases: these, such as R1,Y7")->delimiter(',')->needs(hard)->type_name("ID,...");
+  command.add_option("--json", options.hard.json, "With --hard-cases: the table as JSON; - for standard output")->needs(hard)->type_name("F.json");
+}
+
 }  // namespace
 
 void add_report(CLI::App& app, Run& run) {
@@ -119,8 +129,8 @@ void add_report(CLI::App& app, Run& run) {
       "report", "Speed against error: every technique measured and compared with the ground truth, as an HTML page");
   auto options = std::make_shared<ReportCommand>();
   options->frame.add_without_techniques(*command);
-  command->add_option("--out", options->out, "Folder of the report: report.html, report.csv, report.json and pictures")
-      ->required()
+  command->get_option("SCENE")->required(false);  // not with --hard-cases; run_report() asks for it otherwise
+  command->add_option("--out", options->out, "Folder of the report: report.html, report.csv, report.json and pictures; required for a SCENE")
       ->type_name("DIR");
   command->add_option("--frames", options->trade.frames, "Frames of each setting; default 30")
       ->check(CLI::Range(1, 10000))
@@ -131,6 +141,7 @@ void add_report(CLI::App& app, Run& run) {
   command->add_option("--grid", options->trade.grid, "The ground truth takes N x N samples a pixel; default 4")
       ->check(CLI::Range(1, 64))
       ->type_name("N");
+  add_hard_cases(*command, *options);
   command->callback([options, &run] { run = [options] { return run_report(*options); }; });
 }
 

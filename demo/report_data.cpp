@@ -26,12 +26,6 @@ std::string cpu_name() {
   return "unknown";
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
 // As a POSIX shell reads it back.
 std::string shell_word(const std::string& word) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || (c != 0 && std::strchr("-_./=,:+%@", c) != nullptr); };
@@ -54,7 +48,30 @@ std::string leading_id(const Report& report, size_t i) {
   return report.dominated[i] < 0 ? "" : report.trade.settings[static_cast<size_t>(report.dominated[i])].candidate.id;
 }
 
+std::string date_text() {
+  const std::time_t now = std::time(nullptr);
+  char date[32] = "";
+  std::tm utc{};
+  if (::gmtime_r(&now, &utc) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
+  return date;
+}
+
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
+std::vector<std::pair<std::string, std::string>> describe_program() {
+  return {{"processor", cpu_name() + ", " + std::to_string(Parallel::available()) + " processors for this process"},
+          {"compiler", compiler_name()},
+          {"spanray", SPANRAY_VERSION},
+          {"numeric contract", std::to_string(kNumericContract)},
+          {"date", date_text()},
+          {"command", command_line()}};
+}
 
 std::vector<Cost> costs(const Report& report) {
   std::vector<Cost> list;
@@ -151,30 +168,22 @@ std::string command_line() {
 
 std::vector<std::pair<std::string, std::string>> describe_machine(const Report& report) {
   const FrameStats& frame = report.trade.settings.at(0).frames.back();
-  const std::time_t now = std::time(nullptr);
-  char date[32] = "";
-  std::tm utc{};
-  if (::gmtime_r(&now, &utc) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
   const Settings& s = report.job.settings;
-  return {{"scene", report.scene_path},
-          {"scene hash", hash_text(report.job.scene.hash())},
-          {"triangles", std::to_string(report.job.scene.triangle_count())},
-          {"camera", camera_text(report.job.camera)},
-          {"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
-          {"processor", cpu_name() + ", " + std::to_string(Parallel::available()) + " processors for this process"},
-          {"threads", std::to_string(frame.threads)},
-          {"instruction set", frame.isa},
-          {"compiler", compiler_name()},
-          {"spanray", SPANRAY_VERSION},
-          {"numeric contract", std::to_string(kNumericContract)},
-          {"frames", std::to_string(report.options.frames) + " of each setting after " + std::to_string(report.options.warmup) +
-                         ", in turns of five after one that is not measured"},
-          {"ground truth", "every knob exact, " + std::to_string(report.options.grid) + " x " +
-                               std::to_string(report.options.grid) + " samples a pixel, double precision, " +
-                               std::to_string(std::lround(report.trade.truth_seconds)) +
-                               " s; no random numbers, so there is no seed"},
-          {"date", date},
-          {"command", report.command}};
+  std::vector<std::pair<std::string, std::string>> list = {
+      {"scene", report.scene_path},
+      {"scene hash", hash_text(report.job.scene.hash())},
+      {"triangles", std::to_string(report.job.scene.triangle_count())},
+      {"camera", camera_text(report.job.camera)},
+      {"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
+      {"threads", std::to_string(frame.threads)},
+      {"instruction set", frame.isa},
+      {"frames", std::to_string(report.options.frames) + " of each setting after " + std::to_string(report.options.warmup) +
+                     ", in turns of five after one that is not measured"},
+      {"ground truth", "every knob exact, " + std::to_string(report.options.grid) + " x " + std::to_string(report.options.grid) +
+                           " samples a pixel, double precision, " + std::to_string(std::lround(report.trade.truth_seconds)) +
+                           " s; no random numbers, so there is no seed"}};
+  for (auto& line : describe_program()) list.push_back(std::move(line));
+  return list;
 }
 
 }  // namespace spanray::demo

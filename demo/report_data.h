@@ -31,8 +31,11 @@ nlohmann::ordered_json report_json(const Report& report);
 
 // What the scene asks for that no setting of this renderer gives, in words.
 std::vector<std::string> find_not_modelled(const Job& job);
-// Of the machine, the program and the command.
+// Of the machine, the program and the command: of any report, and of this one.
+std::vector<std::pair<std::string, std::string>> describe_program();
 std::vector<std::pair<std::string, std::string>> describe_machine(const Report& report);
+// A field of a CSV file.
+std::string quoted(const std::string& text);
 // The command line of this process, for a POSIX shell.
 std::string command_line();
 

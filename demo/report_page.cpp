@@ -259,7 +259,7 @@ std::string machine_section(const Report& r) {
   for (const auto& [key, value] : r.machine)
     text += "<tr>" + cell(escape_html(key), "text") + cell("<code>" + escape_html(value) + "</code>", "text") + "</tr>\n";
   return text +
-         "</table></div>\n<p>All numbers stand in <code>report.csv</code> and <code>report.json</code> beside this page, with "
+         "</table></div>\n<p>How the renderer does where arithmetic is hard, on this machine: <code>spanray report --hard-cases --out DIR</code>.</p>\n<p>All numbers stand in <code>report.csv</code> and <code>report.json</code> beside this page, with "
          "every digit; the pictures as PNG. Errors are those that "
          "<code>spanray compare picture-truth.png picture-NAME.png</code> prints.</p>\n";
 }

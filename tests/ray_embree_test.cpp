@@ -36,7 +36,7 @@ void judge_closest(const TracedScene& ours, const EmbreeTracer& embree, EmbreeMo
     if (a[i] == b[i]) { ++tally.same; continue; }
     const int ray = static_cast<int>(i);
     if (a[i] != kNoPrimitive && b[i] != kNoPrimitive) {
-      const OracleHit mine = oracle_hit(scene, a[i], ray_origin(rays, ray), ray_direction(rays, ray));
+      const RayOracleHit mine = oracle_hit(scene, a[i], ray_origin(rays, ray), ray_direction(rays, ray));
       const bool same_distance = std::fabs(mine.t - static_cast<long double>(t[i])) <= RayJudge::kTie * std::fabs(mine.t);
       if (same_distance && (mine.hit || mine.margin <= RayJudge::kDoubt)) { ++tally.ties; continue; }
     }

@@ -80,7 +80,7 @@ TEST(RayTrace, Y5_RandomRaysEqualTheIndependentOracle) {
       uint32_t want = kNoPrimitive;
       long double best = rays.t_max[static_cast<size_t>(i)], margin = 1;
       for (uint32_t p = 0; p < t->scene.triangles.size(); ++p) {
-        const OracleHit h = oracle_hit(t->scene, p, o, d);
+        const RayOracleHit h = oracle_hit(t->scene, p, o, d);
         margin = std::min(margin, h.margin);
         if (h.hit && h.t <= best) best = h.t, want = p;
       }
@@ -205,7 +205,7 @@ TEST(RayTrace, Y10_UnitSphereFromFarAway) {
       const glm::dvec3 o = ray_origin(rays, i), d = ray_direction(rays, i);
       long double best = kInfinity, margin = 1;
       for (uint32_t p = 0; p < t->scene.triangles.size(); ++p) {
-        const OracleHit h = oracle_hit(t->scene, p, o, d);
+        const RayOracleHit h = oracle_hit(t->scene, p, o, d);
         margin = std::min(margin, h.margin);
         if (h.hit) best = std::min(best, h.t);
       }

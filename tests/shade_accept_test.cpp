@@ -2,46 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "frame/transparency.h"
-#include "support/surface_scenes.h"
+#include "support/quad_frame.h"
 
 namespace spanray {
 namespace {
-
-Material material_of_kind(MaterialTransparency kind, float opacity) {
-  Material m;
-  m.transparency = static_cast<int32_t>(kind);
-  m.opacity = opacity;
-  return m;
-}
-
-// A quad that fills the picture of the default camera, uv over [0, 4]^2, cut in two triangles of one material.
-std::unique_ptr<TestFrame> quad_frame(const Material& material, const std::function<void(SceneData&, Material&)>& setup = {}) {
-  const SoupTriangle a = with_uv(soup_triangle({-4, -4, 0}, {4, -4, -1}, {4, 4, 0}), {0, 0}, {4, 0}, {4, 4});
-  const SoupTriangle b = with_uv(soup_triangle({-4, -4, 0}, {4, 4, 0}, {-4, 4, 1}), {0, 0}, {4, 4}, {0, 4});
-  SceneData scene = make_test_scene({a, b}, {material});
-  if (setup) setup(scene, scene.materials[0]);
-  auto t = make_test_frame(std::move(scene), Camera{}, test_settings(128, 128));
-  plan_all(t->frame);
-  return t;
-}
-
-int popcount(uint32_t x) { return __builtin_popcount(x); }
-
-TEST(ShadeAccept, T4_ScreenDoorAcceptsExactlyTheRoundedShareOfEachMaskTile) {
-  for (const Isa isa : supported_isas())
-    for (int n = 0; n <= 256; ++n) {
-      const float opacity = static_cast<float>(n) / 256;
-      auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, opacity));
-      t->frame.isa = isa;
-      const int want = static_cast<int>(std::floor(opacity * 64 + 0.5f));
-      for (const int x0 : {0, 8, 72})
-        for (const int y0 : {0, 40}) {
-          int count = 0;
-          for (int y = y0; y < y0 + 8; ++y) count += popcount(accept_row(t->frame, 0, x0, y, 0xffu));
-          ASSERT_EQ(count, want) << opacity << " " << isa_name(isa);
-        }
-    }
-}
 
 TEST(ShadeAccept, T4_MorePixelsForMoreOpacityAndTheSameForEveryObject) {
   auto t = quad_frame(material_of_kind(MaterialTransparency::kScreenDoor, 0));

@@ -53,7 +53,7 @@ TEST(ShadeSurfaceBatch, OneBitPatternForEveryInstructionSetAndBatchSplit) {
               add_hit(part, hits.pixel[static_cast<size_t>(i)], 0, hits.primitive[static_cast<size_t>(i)]);
             resolve_surfaces(t->frame, part, s);
             for (int i = 0; i < part.count; ++i)
-              ASSERT_TRUE(same_surface(want, first + part.count - 1 - i, s, i)) << isa_name(isa) << " batch " << size;
+              ASSERT_EQ(surface_difference(want, first + part.count - 1 - i, s, i), "") << isa_name(isa) << " batch " << size;
           }
         }
       }
@@ -89,7 +89,7 @@ TEST(ShadeSurfaceBatch, PrimaryRaysAsABatch) {
   EXPECT_GT(checked, 400);
   rays.primary = true;  // now the same numbers stand behind both
   resolve_surfaces(t->frame, by_rays, b);
-  for (int i = 0; i < hits.count; ++i) ASSERT_TRUE(same_surface(a, i, b, i, "ray"));
+  for (int i = 0; i < hits.count; ++i) ASSERT_EQ(surface_difference(a, i, b, i, "ray"), "");
 }
 
 TEST(ShadeSurfaceBatch, ThePlanChangesOnlyWhatItLeavesOut) {

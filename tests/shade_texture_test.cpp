@@ -9,53 +9,6 @@
 namespace spanray {
 namespace {
 
-TEST(ShadeTexture, I8_SrgbBytesSurviveSamplingAtTexelCenters) {
-  TextureProbe probe([](SceneData& scene, Material& m) {
-    m.map_diffuse = add_texture(scene, 256, 2, [](int x, int) {
-      const uint16_t v = linear16_from_srgb8(static_cast<uint8_t>(x));
-      return Texel{v, v, v, v};
-    });
-  });
-  for (int x = 0; x < 256; ++x) probe.add((x + 0.5) / 256, 0.25), probe.add((x + 0.5) / 256, 0.75, 1.0 / 256, 1.0 / 2);
-  for (const Isa isa : supported_isas())
-    for (const Filter filter : kFilters) {
-      probe.frame().settings.filter = filter;
-      const SurfaceBatch& s = probe.run(isa);
-      for (int i = 0; i < s.count; ++i) ASSERT_EQ(srgb8_from_linear(s.diffuse[0][i]), i / 2) << isa_name(isa);
-    }
-}
-
-TEST(ShadeTexture, I8_BlitOneToOneThroughTheCamera) {
-  TestRandom random(1);
-  uint8_t code[64][64];
-  for (auto& row : code)
-    for (uint8_t& c : row) c = static_cast<uint8_t>(random.bits());
-  Material m;
-  m.diffuse[0] = m.diffuse[1] = m.diffuse[2] = 1;
-  SoupTriangle a = with_uv(soup_triangle({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}), {0, 0}, {1, 0}, {1, 1});
-  SoupTriangle b = with_uv(soup_triangle({-32, -32, 0}, {32, 32, 0}, {-32, 32, 0}), {0, 0}, {1, 1}, {0, 1});
-  SceneData scene = make_test_scene({a, b}, {m});
-  scene.materials[0].map_diffuse = add_texture(scene, 64, 64, [&](int x, int y) {
-    const uint16_t v = linear16_from_srgb8(code[y][x]);
-    return Texel{v, v, v, v};
-  });
-  Camera camera;
-  camera.fov_y_degrees = 90;
-  camera.eye[2] = 32;
-  auto t = make_test_frame(std::move(scene), camera, test_settings(64, 64));
-  plan_all(t->frame);
-  HitBatch hits;
-  for (uint32_t y = 0; y < 64; ++y)
-    for (uint32_t x = 0; x < 64; ++x) add_hit(hits, pack_pixel(x, y), 0, 63 - y > x ? 1 : 0);
-  for (const Isa isa : supported_isas())
-    for (const Filter filter : kFilters) {
-      t->frame.isa = isa, t->frame.settings.filter = filter;
-      SurfaceBatch s;
-      resolve_surfaces(t->frame, hits, s);
-      for (int i = 0; i < 64 * 64; ++i) ASSERT_EQ(srgb8_from_linear(s.diffuse[1][i]), code[i / 64][i % 64]) << i;  // row 0 on top
-    }
-}
-
 // Bilinear by definition, in long double, weights not quantised.
 Real bilinear_oracle(const SceneData& scene, const Texture& t, bool clamp, Real u, Real v) {
   const auto texel = [&](Real fx, Real fy) {

@@ -7,16 +7,16 @@
 
 namespace spanray {
 
-struct OracleHit {
+struct PixelOracleHit {
   uint32_t primitive = kNoPrimitive;
   double t = std::numeric_limits<double>::infinity();  // view depth
   bool doubtful = false;  // within `margin` pixels of an edge that matters, or another surface at nearly the same depth
 };
 
-inline OracleHit oracle_hit(const Frame& frame, int x, int y, double margin = 0.01) {
+inline PixelOracleHit oracle_hit(const Frame& frame, int x, int y, double margin = 0.01) {
   const PrimaryRays& r = frame.primary;
   const glm::dvec3 d = r.corner + (x + 0.5) * r.step_x + (y + 0.5) * r.step_y;
-  OracleHit hit;
+  PixelOracleHit hit;
   double second = std::numeric_limits<double>::infinity(), doubtful_t = second;
   for (uint32_t id = 0; id < frame.scene->triangles.size(); ++id) {
     const Triangle& triangle = frame.scene->triangles[id];

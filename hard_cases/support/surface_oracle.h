@@ -1,7 +1,5 @@
 // What tests of shade/ share: an oracle in long double that solves for the hit by Cramer's rule, textures, batches of hits.
 #pragma once
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -99,14 +97,13 @@ inline uint32_t bits_of(float x) {
   std::memcpy(&u, &x, 4);
   return u;
 }
-// Entry i of a and entry j of b are the same bits; says where not. skip: a field left out of the comparison.
-inline ::testing::AssertionResult same_surface(const SurfaceBatch& a, int i, const SurfaceBatch& b, int j,
-                                               const std::string& skip = "") {
+// The first field in which entry i of a and entry j of b differ in bits, with both values; empty if none does. skip: a field left out.
+inline std::string surface_difference(const SurfaceBatch& a, int i, const SurfaceBatch& b, int j, const std::string& skip = "") {
   const auto fa = batch_fields(a), fb = batch_fields(b);
   for (size_t k = 0; k < fa.size(); ++k)
     if (fa[k].name != skip && std::memcmp(fa[k].data + i, fb[k].data + j, 4) != 0)
-      return ::testing::AssertionFailure() << fa[k].name << ": " << fa[k].data[i] << " != " << fb[k].data[j];
-  return ::testing::AssertionSuccess();
+      return fa[k].name + ": " + std::to_string(fa[k].data[i]) + " != " + std::to_string(fb[k].data[j]);
+  return "";
 }
 
 inline void add_hit(HitBatch& hits, uint32_t pixel, uint32_t ray, uint32_t primitive) {
@@ -179,10 +176,6 @@ inline SoupTriangle with_normals(SoupTriangle t, const glm::dvec3& a, const glm:
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) t.corner[i].normal[k] = static_cast<float>((*n[i])[k]);
   return t;
-}
-
-inline glm::dvec3 random_point(TestRandom& random, double size = 1) {
-  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
 // A point on a random triangle of the scene as the target of a ray from `from`.

@@ -53,10 +53,6 @@ inline void add_mesh(std::vector<SoupTriangle>& soup, const IndexedMesh& m, doub
   for (const glm::ivec3& t : m.triangles) soup.push_back(soup_triangle(at(t.x), at(t.y), at(t.z), material));
 }
 
-inline glm::dvec3 random_point(TestRandom& random, double size) {
-  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-}
-
 inline void add_random_triangles(std::vector<SoupTriangle>& soup, TestRandom& random, int n, double size, uint32_t material = 0) {
   for (int i = 0; i < n; ++i) {
     const glm::dvec3 p = random_point(random, 1);
@@ -122,16 +118,16 @@ inline uint32_t brute_force_closest(const SceneData& scene, const RayBatch& rays
 
 // An independent answer in extended precision: e_k = d . cross(v_i - o, v_j - o), t from the plane.
 // `margin` is the least |e| relative to the sizes that it was made of: below some 1e-14 inside and outside cannot be told apart.
-struct OracleHit {
+struct RayOracleHit {
   bool hit = false;
   long double t = 0, margin = 0;
 };
-inline OracleHit oracle_hit(const SceneData& scene, uint32_t primitive, const glm::dvec3& origin, const glm::dvec3& direction) {
+inline RayOracleHit oracle_hit(const SceneData& scene, uint32_t primitive, const glm::dvec3& origin, const glm::dvec3& direction) {
   using V = glm::vec<3, long double>;
   V v[3];
   for (int i = 0; i < 3; ++i) v[i] = V(scene_vertex(scene, primitive, i)) - V(origin);
   const V d(direction);
-  OracleHit r;
+  RayOracleHit r;
   r.margin = 1;
   bool positive = false, negative = false;
   for (int i = 0; i < 3; ++i) {

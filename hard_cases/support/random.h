@@ -1,7 +1,9 @@
-// Random numbers for tests, the same with every standard library (std:: distributions are not).
+// Random numbers for tests and hard cases, the same with every standard library (std:: distributions are not).
 #pragma once
 #include <cstdint>
 #include <random>
+
+#include "math/vec.h"
 
 namespace spanray {
 
@@ -16,5 +18,11 @@ class TestRandom {
  private:
   std::mt19937 engine_;
 };
+
+// In the cube [-size, size]^3.
+inline glm::dvec3 random_point(TestRandom& random, double size = 1) {
+  const double x = random.uniform(-size, size), y = random.uniform(-size, size);
+  return {x, y, random.uniform(-size, size)};
+}
 
 }  // namespace spanray

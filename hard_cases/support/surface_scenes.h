@@ -76,6 +76,14 @@ inline void random_primary_hits(const Frame& frame, TestRandom& random, int n, H
   }
 }
 
+// The same triangles, all bumped by noise.
+inline SceneData bumpy_scene(TestRandom& random) {
+  SceneData scene = random_surface_scene(3, 60);
+  const int32_t noise = add_texture(scene, 32, 32, [&](int, int) { return noise_texel(random); });
+  for (Material& m : scene.materials) m.map_bump = noise, m.map_normal = -1;
+  return scene;
+}
+
 // A frame whose plan has every part of a surface.
 inline std::unique_ptr<TestFrame> full_frame(SceneData scene, const Camera& camera, int width, int height, Isa isa = Isa::kAuto) {
   auto t = make_test_frame(std::move(scene), camera, test_settings(width, height, isa));

@@ -184,6 +184,28 @@ inline std::unique_ptr<TestSurfaces> make_test_surfaces(uint32_t seed, int count
   return t;
 }
 
+// One surface at the origin, facing +z, Kd = 0, Ks = 1, one light.
+inline std::unique_ptr<TestSurfaces> one_surface(const Light& light, int count = 1) {
+  auto t = make_test_surfaces(1, count, Shading::kPhong, false);
+  t->scene().lights = {light};
+  t->scene().materials.assign(5, Material());
+  clear_surfaces(t->surfaces, count);
+  for (int i = 0; i < count; ++i) {
+    SurfaceBatch& s = t->surfaces;
+    s.valid[i] = 1;
+    put3(s.geometric_normal, i, {0, 0, 1}), put3(s.normal, i, {0, 0, 1}), put3(s.view, i, {0, 0, 1});
+    put3(s.specular, i, glm::dvec3(1));
+    s.position_error[i] = 1e-7f;
+  }
+  return t;
+}
+inline Light directional_light(const glm::dvec3& toward) {
+  Light light;
+  light.kind = static_cast<int32_t>(LightKind::kDirectional);
+  for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-toward[k]);
+  return light;
+}
+
 // Ambient and all lights over the whole batch.
 inline TestRadiance shade_all(TestSurfaces& t, Isa isa, const std::vector<uint32_t>* lit = nullptr, LitVertexCache* cache = nullptr) {
   t.frame().isa = isa;

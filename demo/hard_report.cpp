@@ -1,0 +1,131 @@
+#include "hard_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/atomic_file.h"
+#include "core/number_text.h"
+#include "core/timed.h"
+#include "report_data.h"
+#include "command.h"
+
+namespace spanray::demo {
+namespace {
+
+namespace fs = std::filesystem;
+using hard::Verdict;
+using Json = nlohmann::ordered_json;
+
+// NaN is no number of JSON.
+Json number_json(double v) { return std::isfinite(v) ? Json(v) : Json(std::isnan(v) ? "nan" : "inf"); }
+
+Result<void> write_files(const HardReport& report, const std::string& folder, const std::string& json_path) {
+  const std::string json = hard_json(report).dump(2) + "\n";
+  if (!json_path.empty())
+    if (auto written = write_file_atomic(json_path, json); !written) return written;
+  if (folder.empty()) return {};
+  if (auto written = write_file_atomic(folder + "/hard-cases.csv", hard_csv(report)); !written) return written;
+  if (auto written = write_file_atomic(folder + "/hard-cases.json", json); !written) return written;
+  return write_file_atomic(folder + "/hard-cases.html", hard_page(report));
+}
+
+void print_row(const HardRow& row) {
+  const bool measured = row.finding.verdict != Verdict::kNotMeasured;
+  std::printf("%-4s %-5s %s\n           %s%s\n", row.hard_case->id, measured ? verdict_word(row.finding.verdict) : "-", row.hard_case->law,
+              measured ? "" : "not measured: ", row.finding.text.c_str());
+  if (measured) std::printf("           bound: %s\n", row.hard_case->bound);
+  std::fflush(stdout);
+}
+
+// In the order of the table.
+std::vector<std::reference_wrapper<const hard::HardCase>> chosen_cases(const std::vector<std::string>& only) {
+  std::vector<std::string> ids;
+  std::vector<std::reference_wrapper<const hard::HardCase>> chosen;
+  for (const hard::HardCase& hard_case : hard::hard_cases()) {
+    ids.emplace_back(hard_case.id);
+    if (only.empty() || std::find(only.begin(), only.end(), ids.back()) != only.end()) chosen.emplace_back(hard_case);
+  }
+  for (const std::string& id : only)
+    if (std::find(ids.begin(), ids.end(), id) == ids.end())
+      throw UsageError("--only: '" + id + "' is none of the hard cases " + ids.front() + " to " + ids.back());
+  return chosen;
+}
+
+}  // namespace
+
+int HardReport::count(Verdict verdict) const {
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const HardRow& row) { return row.finding.verdict == verdict; }));
+}
+
+const char* verdict_word(Verdict verdict) {
+  return verdict == Verdict::kPass ? "pass" : verdict == Verdict::kFail ? "FAIL" : "not measured";
+}
+
+std::string hard_csv(const HardReport& report) {
+  std::string text = "id,verdict,measured,bound,unit,checked,seconds,law,bound_text,finding\n";
+  for (const HardRow& row : report.rows) {
+    const hard::Finding& f = row.finding;
+    const bool measured = f.verdict != Verdict::kNotMeasured;
+    text += std::string(row.hard_case->id) + "," + verdict_word(f.verdict) + "," + (measured ? number_text(f.measured) : "") + "," +
+            (measured ? number_text(f.bound) : "") + "," + quoted(f.unit) + "," + (measured ? std::to_string(f.checked) : "") + "," +
+            number_text(row.seconds) + "," + quoted(row.hard_case->law) + "," + quoted(row.hard_case->bound) + "," + quoted(f.text) + "\n";
+  }
+  return text;
+}
+
+Json hard_json(const HardReport& report) {
+  Json out;
+  for (const auto& [key, value] : describe_program()) out["about"][key] = value;
+  out["quick"] = report.quick, out["seconds"] = report.seconds;
+  out["pass"] = report.count(Verdict::kPass), out["fail"] = report.count(Verdict::kFail);
+  out["not_measured"] = report.count(Verdict::kNotMeasured);
+  for (const HardRow& row : report.rows) {
+    const hard::Finding& f = row.finding;
+    Json r = {{"id", row.hard_case->id}, {"law", row.hard_case->law}, {"verdict", verdict_word(f.verdict)}, {"finding", f.text}};
+    if (f.verdict != Verdict::kNotMeasured) {
+      r["measured"] = number_json(f.measured), r["bound"] = f.bound, r["bound_text"] = row.hard_case->bound;
+      r["unit"] = f.unit, r["checked"] = f.checked, r["seconds"] = row.seconds;
+    }
+    out["rows"].push_back(r);
+  }
+  return out;
+}
+
+Result<void> make_report_folder(const std::string& folder, const std::string& page) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    return Error{"cannot make this folder: " + (error ? error.message() : std::string("it is a file")), folder};
+  return check_writable(folder + "/" + page);
+}
+
+int run_hard_report(const HardReportOptions& options, const std::string& folder) {
+  const auto chosen = chosen_cases(options.only);
+  if (!folder.empty())
+    if (auto made = make_report_folder(folder, "hard-cases.html"); !made) return fail(made.error());
+  const bool to_stdout = options.json == "-";
+  if (!options.json.empty() && !to_stdout)
+    if (auto room = check_writable(options.json); !room) return fail(room.error());
+  HardReport report;
+  report.quick = options.quick;
+  for (const hard::HardCase& hard_case : chosen) {
+    HardRow row{&hard_case, {}, 0};
+    row.seconds = timed_ms([&] { row.finding = hard_case.measure(hard::Effort{options.quick}); }) / 1000;
+    report.seconds += row.seconds;
+    report.rows.push_back(row);
+    if (!to_stdout) print_row(row);
+  }
+  if (auto written = write_files(report, folder, to_stdout ? "" : options.json); !written) return fail(written.error());
+  if (to_stdout) {
+    std::printf("%s\n", hard_json(report).dump(2).c_str());
+  } else {
+    std::printf("%d pass, %d fail, %d not measured; %.0f s\n", report.count(Verdict::kPass), report.count(Verdict::kFail),
+                report.count(Verdict::kNotMeasured), report.seconds);
+    if (!folder.empty()) std::printf("%s/hard-cases.html\n", folder.c_str());
+  }
+  return report.count(Verdict::kFail) == 0 ? kDone : kCouldNot;
+}
+
+}  // namespace spanray::demo
