@@ -1,4 +1,4 @@
-// spanray reference: the picture that the model asks for, slowly.
+// spanray reference: the picture that the model asks for, or nature, slowly.
 #include <filesystem>
 #include <memory>
 
@@ -6,6 +6,7 @@
 #include "core/atomic_file.h"
 #include "frame_options.h"
 #include "image/pfm.h"
+#include "path_command.h"
 #include "picture.h"
 #include "progress_line.h"
 #include "reference/reference.h"
@@ -18,41 +19,65 @@ struct ReferenceCommand {
   FrameOptions frame;
   std::string out;
   int grid = 0;
+  PathCommand paths;
 };
+
+void check_usage(const ReferenceCommand& command, const std::string& extension) {
+  if (extension != ".png" && extension != ".pfm")
+    throw UsageError("reference: --out writes PNG or PFM, so its file must end in .png or .pfm: " + command.out);
+  const auto place = [](const std::string& file) { return std::filesystem::weakly_canonical(std::filesystem::absolute(file)); };
+  if (!command.paths.accumulate.empty() && place(command.paths.accumulate) == place(command.out))
+    throw UsageError("reference: --out and --accumulate are the same file: " + command.out);
+}
+
+Result<PathPicture> render_model(const ReferenceCommand& command, const Job& job) {
+  PathPicture made;
+  ReferenceOptions options;
+  options.threads = job.settings.threads, options.grid = command.grid;
+  ProgressLine progress("reference");
+  options.progress = [&](double fraction) { progress.show(fraction); };
+  const Result<void> rendered = render_reference(job.scene, job.camera, job.settings, options, made.picture);
+  progress.clear();
+  if (!rendered) return rendered.error();
+  made.text = command.grid > 0 ? "grid " + std::to_string(command.grid) : "samples of the settings";
+  return made;
+}
 
 int reference(const ReferenceCommand& command) {
   const std::string extension = std::filesystem::path(command.out).extension().string();
-  if (extension != ".png" && extension != ".pfm") throw UsageError("reference: --out writes PNG or PFM, so its file must end in .png or .pfm: " + command.out);
+  check_usage(command, extension);
   if (auto writable = check_writable(command.out); !writable) return fail(writable.error());
   Result<Job> loaded = command.frame.load();
   if (!loaded) return fail(loaded.error());
   const Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);
   if (auto possible = check_request(job.scene, job.camera, job.settings); !possible) return fail(possible.error());
-  Framebuffer picture;
-  ReferenceOptions options;
-  options.threads = job.settings.threads, options.grid = command.grid;
-  ProgressLine progress("reference");
-  options.progress = [&](double fraction) { progress.show(fraction); };
-  const Result<void> rendered = render_reference(job.scene, job.camera, job.settings, options, picture);
-  progress.clear();
+  Result<PathPicture> rendered = command.paths.paths > 0 ? command.paths.render(job) : render_model(command, job);
   if (!rendered) return fail(rendered.error());
+  PathPicture& made = rendered.value();
+  Framebuffer& picture = made.picture;
   auto text = picture_text(job);
-  text.emplace_back("reference", command.grid > 0 ? "grid " + std::to_string(command.grid) : "samples of the settings");
+  text.emplace_back("reference", made.text);
   const auto written = extension == ".png"
                            ? write_png(command.out, picture.color, text)
                            : write_pfm(command.out, FloatImage{picture.color.width, picture.color.height, std::move(picture.radiance)});
-  return written ? static_cast<int>(kDone) : fail(written.error());
+  if (!made.saved) fail(made.saved.error());
+  if (!written) return fail(written.error());
+  return made.saved && !made.stopped ? kDone : kCouldNot;
 }
 
 }  // namespace
 
 void add_reference(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("reference", "Render the ground truth: the same model in double, without approximations, slowly");
+  CLI::App* command = app.add_subcommand(
+      "reference", "Render the ground truth, slowly: the same model in double, without approximations, or with --paths the rendering equation");
   auto options = std::make_shared<ReferenceCommand>();
   options->frame.add_to(*command);
   command->add_option("--out", options->out, "The picture, or its linear radiance")->required()->type_name("F.png|F.pfm");
-  command->add_option("--grid", options->grid, "N x N samples a pixel, instead of --samples")->check(CLI::Range(1, 64))->type_name("N");
+  CLI::Option* grid = command->add_option("--grid", options->grid, "N x N samples a pixel, instead of --samples")
+                          ->check(CLI::Range(1, 64))
+                          ->type_name("N");
+  options->paths.add_to(*command)->excludes(grid);
   command->callback([options, &run] { run = [options] { return reference(*options); }; });
 }
 

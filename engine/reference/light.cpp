@@ -7,22 +7,6 @@
 namespace spanray::reference {
 namespace {
 
-// Reflectance times cosine, 1/sr: to be multiplied by Kd and by Ks.
-struct Reflectance {
-  double diffuse = 0, specular = 0;
-};
-
-// Lambert 1760; Blinn 1977, with the whole divided by pi. n_l must be positive.
-Reflectance reflectance(int32_t model, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v, double shininess) {
-  Reflectance r{dot3(n, l) / std::numbers::pi, 0};
-  const glm::dvec3 half = l + v;
-  const double length = length3(half);
-  if (model != kBlinnPhong || !(length > 1e-5)) return r;  // light from behind along the view has no half-way direction
-  const double cosine = std::min(dot3(n, half) / length, 1.0);
-  if (cosine > 0) r.specular = std::pow(cosine, shininess) / std::numbers::pi;
-  return r;
-}
-
 glm::dvec3 colored(const Surface& s, const Light& light, const Reflectance& r, double irradiance) {
   return to_dvec(light.intensity) * (s.diffuse * r.diffuse + s.specular * r.specular) * irradiance;
 }
@@ -65,6 +49,21 @@ Incidence incidence(const Light& light, const glm::dvec3& position) {
   if (d < 0x1p-62) return {};
   const double falloff = light.attenuation[0] + light.attenuation[1] * d + light.attenuation[2] * d * d;
   return {way * (1 / d), 1 / std::max(falloff, double{kMinAttenuation})};
+}
+
+Reflectance reflectance(int32_t model, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v, double shininess) {
+  Reflectance r{dot3(n, l) / std::numbers::pi, 0};
+  const glm::dvec3 half = l + v;
+  const double length = length3(half);
+  if (model != kBlinnPhong || !(length > 1e-5)) return r;  // light from behind along the view has no half-way direction
+  const double cosine = std::min(dot3(n, half) / length, 1.0);
+  if (cosine > 0) r.specular = std::pow(cosine, shininess) / std::numbers::pi;
+  return r;
+}
+
+glm::dvec3 mirror_direction(const Surface& s) {
+  const glm::dvec3 d = -s.view, r = d - s.normal * (2 * dot3(d, s.normal));
+  return r + s.geometric * std::max(kHorizon - dot3(s.geometric, r), 0.0);
 }
 
 glm::dvec3 start_above(const Surface& s) { return s.position + s.geometric * s.clearance; }

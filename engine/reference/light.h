@@ -11,6 +11,16 @@ struct Incidence {
 };
 Incidence incidence(const Light& light, const glm::dvec3& position);
 
+// Reflectance times cosine, 1/sr: to be multiplied by Kd and by Ks.
+struct Reflectance {
+  double diffuse = 0, specular = 0;
+};
+// Lambert 1760; Blinn 1977, with the whole divided by pi. Unit vectors: n the shading normal, l to the light, v to the viewer;
+// dot(n, l) must be positive.
+Reflectance reflectance(int32_t model, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v, double shininess);
+
+// Where the view is mirrored to; lifted above the surface where the shading normal points it inside. About of unit length.
+glm::dvec3 mirror_direction(const Surface& s);
 // Where rays from a surface start.
 glm::dvec3 start_above(const Surface& s);
 

@@ -1,5 +1,6 @@
-// The ground truth: the renderer's model once more, exactly. Plain code in double, one ray at a time, without SIMD. It shares
-// with the fast path the scene (its parts where they stand at a time, its default light) and the places of samples in a pixel, nothing else.
+// The ground truth: the renderer's model once more, exactly (and paths.h: physics instead of the model). Plain code in double, one
+// ray at a time, without SIMD. It shares with the fast path the scene (its parts where they stand at a time, its default light) and
+// the places of samples in a pixel, nothing else.
 #pragma once
 #include <functional>
 
