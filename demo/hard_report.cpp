@@ -28,6 +28,7 @@ Result<void> write_files(const HardReport& report, const std::string& folder, co
   if (folder.empty()) return {};
   if (auto written = write_file_atomic(folder + "/hard-cases.csv", hard_csv(report)); !written) return written;
   if (auto written = write_file_atomic(folder + "/hard-cases.json", json); !written) return written;
+  if (auto written = write_file_atomic(folder + "/hard-cases-sweeps.csv", sweep_csv(report)); !written) return written;
   return write_file_atomic(folder + "/hard-cases.html", hard_page(report));
 }
 
@@ -39,18 +40,31 @@ void print_row(const HardRow& row) {
   std::fflush(stdout);
 }
 
-// In the order of the table.
-std::vector<std::reference_wrapper<const hard::HardCase>> chosen_cases(const std::vector<std::string>& only) {
+bool contains(const std::vector<std::string>& list, const std::string& id) { return std::find(list.begin(), list.end(), id) != list.end(); }
+
+void check_ids(const std::vector<std::string>& only) {
   std::vector<std::string> ids;
-  std::vector<std::reference_wrapper<const hard::HardCase>> chosen;
-  for (const hard::HardCase& hard_case : hard::hard_cases()) {
-    ids.emplace_back(hard_case.id);
-    if (only.empty() || std::find(only.begin(), only.end(), ids.back()) != only.end()) chosen.emplace_back(hard_case);
-  }
+  for (const hard::HardCase& hard_case : hard::hard_cases()) ids.emplace_back(hard_case.id);
+  std::string sweeps;
+  for (const hard::SweepCase& sweep : hard::sweep_cases()) ids.emplace_back(sweep.id), sweeps += (sweeps.empty() ? "" : ", ") + ids.back();
   for (const std::string& id : only)
-    if (std::find(ids.begin(), ids.end(), id) == ids.end())
-      throw UsageError("--only: '" + id + "' is none of the hard cases " + ids.front() + " to " + ids.back());
-  return chosen;
+    if (!contains(ids, id)) throw UsageError("--only: '" + id + "' is none of the hard cases R1 to O3, nor of the sweeps " + sweeps);
+}
+
+// Into the report, row by row onto standard output unless `silent`.
+void measure(const HardReportOptions& options, bool sweeps, bool silent, HardReport& report) {
+  const auto chosen = [&](const char* id) { return options.only.empty() || contains(options.only, id); };
+  const hard::Effort effort{options.quick};
+  for (const hard::HardCase& hard_case : hard::hard_cases()) {
+    if (!chosen(hard_case.id)) continue;
+    HardRow row{&hard_case, {}, 0};
+    row.seconds = timed_ms([&] { row.finding = hard_case.measure(effort); }) / 1000;
+    report.seconds += row.seconds;
+    report.rows.push_back(row);
+    if (!silent) print_row(row);
+  }
+  for (const hard::SweepCase& sweep : hard::sweep_cases())
+    if (sweeps && chosen(sweep.id)) report.seconds += timed_ms([&] { report.sweeps.push_back({sweep.id, sweep.measure(effort)}); }) / 1000;
 }
 
 }  // namespace
@@ -75,6 +89,21 @@ std::string hard_csv(const HardReport& report) {
   return text;
 }
 
+std::string sweep_csv(const HardReport& report) {
+  std::string text = "sweep,x_name,y_name,curve,x,y\n";
+  for (const HardSweep& sweep : report.sweeps) {
+    const hard::Sweep& s = sweep.sweep;
+    const auto rows = [&](const std::string& name, const std::vector<double>& y) {
+      for (size_t i = 0; i < y.size(); ++i)
+        text += sweep.id + "," + quoted(s.x_name) + "," + quoted(s.y_name) + "," + quoted(name) + "," + number_text(s.x[i]) + "," +
+                (std::isnan(y[i]) ? "" : number_text(y[i])) + "\n";
+    };
+    for (const hard::Curve& c : s.curves) rows(c.name, c.y);
+    if (!s.bound_name.empty()) rows(s.bound_name, s.bound);
+  }
+  return text;
+}
+
 Json hard_json(const HardReport& report) {
   Json out;
   for (const auto& [key, value] : describe_program()) out["about"][key] = value;
@@ -90,6 +119,17 @@ Json hard_json(const HardReport& report) {
     }
     out["rows"].push_back(r);
   }
+  for (const HardSweep& sweep : report.sweeps) {
+    const hard::Sweep& s = sweep.sweep;
+    Json j = {{"id", sweep.id}, {"title", s.title}, {"what", s.what}, {"x_name", s.x_name}, {"y_name", s.y_name}, {"x", s.x}};
+    for (const hard::Curve& c : s.curves) {
+      Json values = Json::array();
+      for (const double y : c.y) values.push_back(number_json(y));
+      j["curves"].push_back({{"name", c.name}, {"ours", c.ours}, {"y", values}});
+    }
+    if (!s.bound_name.empty()) j["bound_name"] = s.bound_name, j["bound"] = s.bound;
+    out["sweeps"].push_back(j);
+  }
   return out;
 }
 
@@ -102,7 +142,7 @@ Result<void> make_report_folder(const std::string& folder, const std::string& pa
 }
 
 int run_hard_report(const HardReportOptions& options, const std::string& folder) {
-  const auto chosen = chosen_cases(options.only);
+  check_ids(options.only);
   if (!folder.empty())
     if (auto made = make_report_folder(folder, "hard-cases.html"); !made) return fail(made.error());
   const bool to_stdout = options.json == "-";
@@ -110,13 +150,7 @@ int run_hard_report(const HardReportOptions& options, const std::string& folder)
     if (auto room = check_writable(options.json); !room) return fail(room.error());
   HardReport report;
   report.quick = options.quick;
-  for (const hard::HardCase& hard_case : chosen) {
-    HardRow row{&hard_case, {}, 0};
-    row.seconds = timed_ms([&] { row.finding = hard_case.measure(hard::Effort{options.quick}); }) / 1000;
-    report.seconds += row.seconds;
-    report.rows.push_back(row);
-    if (!to_stdout) print_row(row);
-  }
+  measure(options, !folder.empty() || !options.json.empty(), to_stdout, report);
   if (auto written = write_files(report, folder, to_stdout ? "" : options.json); !written) return fail(written.error());
   if (to_stdout) {
     std::printf("%s\n", hard_json(report).dump(2).c_str());

@@ -113,13 +113,13 @@ int run_report(const ReportCommand& command) {
 void add_hard_cases(CLI::App& command, ReportCommand& options) {
   CLI::Option* const hard = command.add_flag(
       "--hard-cases", options.hard_cases,
-      "No SCENE: measures every hard case of rasterizing, texturing, shading and tracing, and prints the table; --out writes it as "
-      "hard-cases.html, .csv and .json. Exit 1 where one fails");
+      "No SCENE: measures every hard case of rasterizing, texturing, shading and tracing, and prints the table; --out writes it, "
+      "with error curves, as hard-cases.html, .csv and .json. Exit 1 where one fails");
   for (CLI::Option* option : command.get_options())
     if (option != hard && option != command.get_help_ptr() && option->get_name() != "--out") hard->excludes(option);
   command.add_flag("--quick", options.hard.quick, "With --hard-cases: fewer of everything")->needs(hard);
-  command.add_option("--only", options.hard.only, "With --hard-cases: these, such as R1,Y7")->delimiter(',')->needs(hard)->type_name("ID,...");
-  command.add_option("--json", options.hard.json, "With --hard-cases: the table as JSON; - for standard output")->needs(hard)->type_name("F.json");
+  command.add_option("--only", options.hard.only, "With --hard-cases: these, such as R1,Y7,depth-steps")->delimiter(',')->needs(hard)->type_name("ID,...");
+  command.add_option("--json", options.hard.json, "With --hard-cases: the table and the curves as JSON; - for standard output")->needs(hard)->type_name("F.json");
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ class Tally {
     check(right);
   }
   void add(uint64_t wrong, uint64_t checked) { wrong_ += wrong, checked_ += checked; }
+  void add(const Tally& other) {
+    if (wrong_ == 0) first_ = other.first_;
+    add(other.wrong_, other.checked_);
+  }
   uint64_t wrong() const { return wrong_; }
   uint64_t checked() const { return checked_; }
   const std::string& first() const { return first_; }

@@ -210,9 +210,8 @@ static void check_blockers(const Effort& effort, double s, Tally& rays) {
 Finding y7_leaving_surfaces(const Effort& effort) {
   Tally rays, blocked;
   for (double scale = 1e-3; scale < 2e6; scale *= 10) check_self_hits(effort, scale, rays), check_blockers(effort, scale, blocked);
-  Tally all = rays.wrong() > 0 ? rays : blocked;
-  if (rays.wrong() > 0) all.add(blocked.wrong(), blocked.checked());
-  else all.add(rays.wrong(), rays.checked());
+  Tally all = rays;
+  all.add(blocked);
   return none_wrong(all, "rays", 100000, grouped(rays.wrong()) + " self-hits, " + grouped(blocked.wrong()) + " missed blockers");
 }
 

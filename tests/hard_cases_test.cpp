@@ -1,9 +1,12 @@
 // Every row of the table of hard cases (hard_cases/), with the counts that a test suite can afford.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "hard_case.h"
+#include "sweep.h"
 
 namespace spanray::hard {
 namespace {
@@ -47,6 +50,39 @@ TEST(HardCases, FindingsFailWhenWrongWhenNotANumberAndWhenNothingWasChecked) {
   worst.add(NAN), worst.add(0.1);
   EXPECT_EQ(within(worst, 0.5, "texels", "samples", 2).verdict, Verdict::kFail);
 }
+
+class SweepOf : public testing::TestWithParam<SweepCase> {};
+
+// What the curves of the page are there to show: what this renderer does is exact or within the bound, and each rival errs somewhere.
+TEST_P(SweepOf, OursHoldsAndTheRivalsErr) {
+  const Sweep s = GetParam().measure(Effort{true});
+  const std::string id = GetParam().id;
+  ASSERT_GE(s.x.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(s.x.begin(), s.x.end()));
+  EXPECT_EQ(s.bound.size(), s.bound_name.empty() ? 0u : s.x.size());
+  // Slivers are beyond what the contract promises: that curve is shown, and must only stay far below those of the rivals.
+  const bool counts = s.bound.empty(), promised = id != "uv-by-sliver";
+  for (const Curve& c : s.curves) {
+    ASSERT_EQ(c.y.size(), s.x.size()) << c.name;
+    const double worst = *std::max_element(c.y.begin(), c.y.end(), [](double a, double b) { return !(b <= a); });
+    for (size_t i = 0; i < c.y.size(); ++i) {
+      ASSERT_FALSE(std::isnan(c.y[i])) << c.name << " at " << s.x[i];
+      if (!c.ours) continue;
+      const double room = counts ? 0 : promised ? s.bound[i] : s.curves.back().y[i] / 10;
+      EXPECT_LE(c.y[i], room) << "at " << s.x[i];
+    }
+    const bool rival = !c.ours && c.name.find("(spanray's format)") == std::string::npos;
+    if (rival) {
+      EXPECT_GT(worst, counts ? 1 : s.bound[0]) << c.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Page, SweepOf, testing::ValuesIn(sweep_cases()), [](const auto& sweep) {
+  std::string name = sweep.param.id;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace spanray::hard

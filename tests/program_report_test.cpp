@@ -233,7 +233,7 @@ TEST(ProgramReport, WrongUse) {
 // The rows that are asked for, in a table, a page, CSV and JSON that agree; the figures are those of the functions that the tests assert.
 TEST(ProgramHardCases, TableAndFilesSayTheSame) {
   const TempFolder folder;
-  const Ran ran = run_program({"report", "--hard-cases", "--quick", "--only", "O3,D3,R1", "--out", "d", "--json", "own.json"}, folder.path());
+  const Ran ran = run_program({"report", "--hard-cases", "--quick", "--only", "O3,D3,R1,depth-steps", "--out", "d", "--json", "own.json"}, folder.path());
   ASSERT_EQ(0, ran.code) << ran.error;
   EXPECT_NE(ran.out.find("0 wrong of 65,536 pairs"), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find("2 pass, 0 fail, 1 not measured"), std::string::npos) << ran.out;
@@ -254,6 +254,16 @@ TEST(ProgramHardCases, TableAndFilesSayTheSame) {
   EXPECT_EQ(ids, (std::vector<std::string>{"R1", "D3", "O3"})) << "the order of the table";
   EXPECT_EQ(verdicts, (std::vector<std::string>{"pass", "not measured", "pass"}));
   EXPECT_EQ(json["rows"][2]["checked"], 65536);
+  // The curves: one, with its points in the plot, in CSV and in JSON.
+  ASSERT_EQ(json["sweeps"].size(), 1u);
+  const auto& sweep = json["sweeps"][0];
+  const size_t points = sweep["x"].size() * sweep["curves"].size();
+  EXPECT_EQ(sweep["curves"].size(), 4u);
+  const std::string points_csv = read_text(folder.file("d/hard-cases-sweeps.csv"));
+  EXPECT_EQ(static_cast<size_t>(std::count(points_csv.begin(), points_csv.end(), '\n')), 1 + points + sweep["x"].size());
+  size_t circles = 0;
+  for (size_t at = 0; (at = page.find("<circle", at)) != std::string::npos; ++at) ++circles;
+  EXPECT_EQ(circles, points);
 }
 
 TEST(ProgramHardCases, WrongUse) {

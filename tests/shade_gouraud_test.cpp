@@ -17,36 +17,6 @@ constexpr int kCount = 1009;
 
 size_t vertex_count(TestSurfaces& t) { return t.scene().vertices.size(); }
 
-TEST(Gouraud, S6_EqualsPhongAtTheVertices) {
-  for (const bool bounce : {false, true}) {
-    auto t = make_test_surfaces(1, 60 * 3, Shading::kGouraud, bounce);
-    for (int i = 0; i < 180; ++i) {
-      glm::dvec3 weight(0);
-      weight[i % 3] = 1;
-      const bool was_valid = t->surfaces.valid[i] != 0;
-      if (was_valid) put_surface(*t, i, static_cast<uint32_t>(i / 3), weight, t->viewer(i));
-    }
-    LitVertexCache cache(vertex_count(*t), t->scene().lights.size());
-    for (const Isa isa : supported_isas()) {
-      cache.reset();
-      const TestRadiance gouraud = shade_all(*t, isa, nullptr, &cache);
-      t->frame().settings.shading = Shading::kPhong;
-      const TestRadiance phong = shade_all(*t, isa);
-      t->frame().settings.shading = Shading::kGouraud;
-      double worst = 0, brightest = 0;
-      for (int i = 0; i < 180; ++i) {
-        const auto s = static_cast<size_t>(i);
-        const glm::dvec3 want(phong.channel[0][s], phong.channel[1][s], phong.channel[2][s]);
-        // Next to the terminator, which n.l = 0 draws, the two may fall on different sides; the highlight jumps there.
-        worst = std::max(worst, gouraud.max_encoded_difference(i, want));
-        brightest = std::max(brightest, want.x);
-      }
-      EXPECT_LE(worst, 1.0 / 255) << isa_name(isa);
-      EXPECT_GT(brightest, 0.5);
-    }
-  }
-}
-
 TEST(Gouraud, InterpolatesTheCornersOfTheSideThatIsSeen) {
   for (const bool bounce : {false, true}) {
     auto t = make_test_surfaces(2, kCount, Shading::kGouraud, bounce);
