@@ -9,6 +9,7 @@
 namespace spanray {
 
 inline constexpr int kCellSize = 16;  // of the squares of a tile whose pixels are shaded one after the other
+inline constexpr uint32_t kCellMask = ~(uint32_t{kCellSize - 1} * 0x10001u);  // of a pixel: x and y of its cell
 inline constexpr int kTileSize = 64;  // pixels; depth and id of a tile (32 KB) fit the first-level cache
 inline constexpr int kTilePixels = kTileSize * kTileSize;
 

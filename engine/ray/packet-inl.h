@@ -77,15 +77,15 @@ struct PacketTask {
   }
 
  private:
-  PacketLanes lanes_;
+  PacketLanes lanes_{};
   bool lanes_stored_ = false;
 };
 
-// All rays of a packet down the tree; Packet is one of the two below.
-template <class Packet> HWY_INLINE void go_together(Packet& packet) {
+// All rays of a packet down the tree; Packet is one of the two below. from: what its descend() takes besides.
+template <class Packet, class... From> HWY_INLINE void go_together(Packet& packet, From... from) {
   const Beam beam = make_beam(packet.p);
-  if (packet.p.mixed_axes == 0) packet.template descend<false>(beam);
-  else packet.template descend<true>(beam);
+  if (packet.p.mixed_axes == 0) packet.template descend<false>(beam, from...);
+  else packet.template descend<true>(beam, from...);
 }
 
 // ---- any hit ---------------------------------------------------------------------------------------------------------
@@ -114,13 +114,18 @@ struct AnyPacket : PacketTask {
 
   HWY_INLINE void leaf(AnyEntry entry, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(entry.child)];
-    for (uint32_t rest = leaf_lanes(entry.child) & beam_triangles(block, beam); rest != 0 && (entry.rays & alive) != 0; rest &= rest - 1) {
+    test(block, leaf_lanes(entry.child) & beam_triangles(block, beam), entry.rays);
+  }
+
+  // Some triangles of a block against some rays.
+  HWY_INLINE void test(const TriangleBlock& block, uint32_t triangles, uint32_t rays) {
+    for (uint32_t rest = triangles; rest != 0 && (rays & alive) != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
       const LaneHits hits = triangle_lanes<true>(p, block, j);
       const uint32_t primitive = block.primitive[j];
-      const uint32_t sure = hits.sure & entry.rays & alive;
+      const uint32_t sure = hits.sure & rays & alive;
       if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure;
-      const uint32_t maybe = hits.maybe & entry.rays & alive;
+      const uint32_t maybe = hits.maybe & rays & alive;
       if (maybe == 0) continue;
       const ExactLanes exact = exact_lanes(p, block, j);
       uint32_t found = exact.hit & maybe;
@@ -130,26 +135,27 @@ struct AnyPacket : PacketTask {
     }
   }
 
-  template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
-    AnyEntry stack[kBvhStackSize];
-    stack[0] = {0, alive};
-    int top = 1;
+  template <bool kMixed> HWY_INLINE int push(const BvhNode& node, uint32_t rays, const Beam& beam, AnyEntry* stack, int top) {
+    for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
+      const int c = std::countr_zero(rest);
+      const uint32_t meet = to_bits(box_lanes<kMixed>(p, node, c).meets) & rays;
+      if (meet != 0) stack[top++] = {node.child[c], meet};
+    }
+    return top;
+  }
+
+  // From the children of some nodes.
+  template <bool kMixed> HWY_INLINE void descend(const Beam& beam, const BvhNode* nodes, int n) {
+    AnyEntry stack[kBvhStackSize + kBvhWidth];
+    int top = 0;
+    for (int i = 0; i < n; ++i) top = push<kMixed>(nodes[i], alive, beam, stack, top);
     while (top > 0) {
       AnyEntry entry = stack[--top];
       entry.rays &= alive;
       if (entry.rays == 0) continue;
-      if (std::popcount(entry.rays) <= kFewRays) {
-        alone(entry);
-      } else if ((entry.child & kLeafBit) != 0) {
-        leaf(entry, beam);
-      } else {
-        const BvhNode& node = data.nodes[entry.child];
-        for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
-          const int c = std::countr_zero(rest);
-          const uint32_t rays = to_bits(box_lanes<kMixed>(p, node, c).meets) & entry.rays;
-          if (rays != 0) stack[top++] = {node.child[c], rays};
-        }
-      }
+      if (std::popcount(entry.rays) <= kFewRays) alone(entry);
+      else if ((entry.child & kLeafBit) != 0) leaf(entry, beam);
+      else top = push<kMixed>(data.nodes[entry.child], entry.rays, beam, stack, top);
     }
   }
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "frame/frame.h"
+#include "frame/tiles.h"
 #include "ray/bvh_data.h"
 #include "ray/trace_kernel.h"
 #include "ray/triangle_test.h"
@@ -16,6 +17,7 @@
 #define HWY_TARGET_INCLUDE "ray/trace_kernel.cpp"
 #include "hwy/foreach_target.h"
 #include "ray/packet-inl.h"
+#include "ray/entrance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -26,6 +28,14 @@ constexpr int kMixedAxes = 1;
 
 HWY_INLINE bool coherent(const RayPacket& p) {
   return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays;
+}
+
+// How many rays from `first` on, in whole packets but for the last of the batch, belong to one cell of the picture: they have much in common.
+HWY_INLINE int same_cell(const RayBatch& rays, int first) {
+  const auto cell = [&](int i) { return rays.pixel[static_cast<size_t>(i)] & kCellMask; };
+  int n = kLanes;
+  while (n < kShaftRays && first + n < rays.count && cell(first + n) == cell(first)) n += kLanes;
+  return std::min(n, rays.count - first);
 }
 
 void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
@@ -47,12 +57,25 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
   if (data.nodes.empty()) return;
   const Batch batch{frame, rays, false};
   AnyPacket packet(data, batch);
-  for (int first = 0; first < rays.count; first += kLanes) {
-    packet.start(first);
-    if (packet.p.valid == 0) continue;
-    if (coherent(packet.p)) go_together(packet);
-    else packet.alone({0, packet.p.valid});
-    out[first / 32] |= (packet.p.valid & ~packet.alive) << (first % 32);
+  Shaft shaft;
+  Entrance entrance;
+  for (int first = 0; first < rays.count;) {
+    const int n = same_cell(rays, first);
+    const bool narrow = kLanes > kFewRays && n > kLanes && make_shaft(data, rays, first, n, shaft);
+    if (narrow) find_entrance(data, shaft, entrance);
+    for (const int end = first + n; first < end; first += kLanes) {
+      if (narrow && entrance.empty()) continue;
+      packet.start(first);
+      if (packet.p.valid == 0) continue;
+      if (!coherent(packet.p)) {
+        packet.alone({0, packet.p.valid});
+      } else {
+        if (narrow) packet.test(entrance.few, (1u << entrance.triangles) - 1, packet.p.valid);
+        const int nodes = narrow ? entrance.nodes() : 1;
+        if (nodes != 0 && packet.alive != 0) go_together(packet, narrow ? entrance.node : data.nodes.data(), nodes);
+      }
+      out[first / 32] |= (packet.p.valid & ~packet.alive) << (first % 32);
+    }
   }
 }
 

@@ -42,7 +42,6 @@ inline constexpr float kPositionRounding = 0x1.01p-23f, kReachRounding = 0x1.c1p
 
 inline constexpr int kPlaneHits = 1024;  // those of a chunk: the more, the fewer lanes are idle when planes are set up
 inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the instruction set
-inline constexpr uint32_t kCellMask = ~(uint32_t{kCellSize - 1} * 0x10001u);  // of a pixel: x and y of its cell
 
 // Planes that kPlaneHits hits see: field by field in lines of kPlaneLine planes.
 struct PlaneBlock {
