@@ -37,7 +37,7 @@ Box triangle_box(const SceneData& scene, const Triangle& t) {
   Box box = Box::empty();
   for (const uint32_t v : t.vertex) {
     const float* p = scene.vertices[v].position;
-    box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+    box.add(Box::of(bvh::F4{p[0], p[1], p[2], 0}));
   }
   return box;
 }
@@ -113,7 +113,7 @@ class NodeBuilder {
     TriangleBlock block{};
     // By id, so that lanes do not depend on how the range was shuffled.
     uint32_t ids[kBvhWidth];
-    for (uint32_t i = 0; i < range.count(); ++i) ids[i] = refs_[range.begin + i].primitive;
+    for (uint32_t i = 0; i < range.count(); ++i) ids[i] = refs_[range.begin + i].primitive();
     std::sort(ids, ids + range.count());
     for (uint32_t i = 0; i < range.count(); ++i) {
       const Triangle& t = scene_.triangles[ids[i]];
@@ -135,12 +135,15 @@ AlignedBuffer<Ref> collect_refs(const SceneData& scene, const uint32_t* material
   AlignedBuffer<Ref> refs(scene.triangles.size());
   size_t n = 0;
   for (size_t i = 0; i < scene.triangles.size(); ++i)
-    if ((material_flags[material_of(scene.triangles[i])] & mask) == value) refs[n++].primitive = static_cast<uint32_t>(i);
+    if ((material_flags[material_of(scene.triangles[i])] & mask) == value) refs[n++].set_primitive(static_cast<uint32_t>(i));
   refs.resize(n);
   constexpr size_t kChunk = 16384;
   parallel.for_each((n + kChunk - 1) / kChunk, [&](size_t c, int) {
-    for (size_t i = c * kChunk; i < std::min(n, (c + 1) * kChunk); ++i)
-      refs[i].box = triangle_box(scene, scene.triangles[refs[i].primitive]);
+    for (size_t i = c * kChunk; i < std::min(n, (c + 1) * kChunk); ++i) {
+      const uint32_t primitive = refs[i].primitive();
+      refs[i].box = triangle_box(scene, scene.triangles[primitive]);
+      refs[i].set_primitive(primitive);
+    }
   });
   return refs;
 }
@@ -196,8 +199,7 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
   std::vector<PendingSubtree> pending;
   NodeBuilder top(scene, refs.data(), splitter, &pending);
   const Range root = splitter.analyse(0, n, false);
-  std::copy(root.box.lo, root.box.lo + 3, data.bounds_min);
-  std::copy(root.box.hi, root.box.hi + 3, data.bounds_max);
+  for (int k = 0; k < 3; ++k) data.bounds_min[k] = root.box.lo[k], data.bounds_max[k] = root.box.hi[k];
   top.build(root, 1);
 
   std::vector<Tree> subtrees(pending.size());

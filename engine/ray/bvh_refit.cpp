@@ -20,9 +20,8 @@ void for_chunks(size_t count, size_t chunk, Parallel& parallel, const std::funct
 bool used(const BvhNode& node, int slot) { return node.bounds[0][slot] <= node.bounds[3][slot]; }
 
 Box slot_box(const BvhNode& node, int slot) {
-  Box box;
-  for (int k = 0; k < 3; ++k) box.lo[k] = node.bounds[k][slot], box.hi[k] = node.bounds[k + 3][slot];
-  return box;
+  const auto row = [&](int k) { return node.bounds[k][slot]; };
+  return {bvh::F4{row(0), row(1), row(2), 0}, bvh::F4{row(3), row(4), row(5), 0}};
 }
 
 Box node_box(const BvhNode& node) {
@@ -35,7 +34,7 @@ Box node_box(const BvhNode& node) {
 Box block_box(const TriangleBlock& block, uint32_t triangles) {
   Box box = Box::empty();
   for (uint32_t i = 0; i < triangles; ++i)
-    for (const auto& v : block.vertex) box.add({{v[0][i], v[1][i], v[2][i]}, {v[0][i], v[1][i], v[2][i]}});
+    for (const auto& v : block.vertex) box.add(Box::of(bvh::F4{v[0][i], v[1][i], v[2][i], 0}));
   return box;
 }
 
@@ -130,8 +129,7 @@ void BvhRefit::refit(const SceneData& scene, Bvh& bvh, Parallel& parallel) {
     for (const double cost : costs) moving_cost_ += cost;
   }
   const Box root = node_box(data.nodes[0]);
-  std::copy(root.lo, root.lo + 3, data.bounds_min);
-  std::copy(root.hi, root.hi + 3, data.bounds_max);
+  for (int k = 0; k < 3; ++k) data.bounds_min[k] = root.lo[k], data.bounds_max[k] = root.hi[k];
 }
 
 }  // namespace spanray

@@ -1,6 +1,7 @@
 #include "ray/bvh_split.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -14,26 +15,15 @@ constexpr uint32_t kChunk = 8192;
 constexpr float kTraversalCost = 0.4f;  // of one binary level of an eight-wide node, in units of one block test
 
 // A quarter of lo + hi: halves of the sum of two finite floats may overflow, and so may the range of such halves.
-float centroid(const Box& b, int axis) { return 0.25f * b.lo[axis] + 0.25f * b.hi[axis]; }
-
-struct Centroids {
-  float lo[3], hi[3];
-  static Centroids empty() {
-    constexpr float inf = std::numeric_limits<float>::infinity();
-    return {{inf, inf, inf}, {-inf, -inf, -inf}};
-  }
-  void add(const Centroids& o) {
-    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
-  }
-};
+F4 centroid(const Box& b) { return 0.25f * b.lo + 0.25f * b.hi; }
 
 struct Bounds {
   Box box = Box::empty();
-  Centroids centroids = Centroids::empty();
+  Box centroids = Box::empty();
 };
 
 struct BinGrid {
-  float origin[3], scale[3];  // scale 0: the axis has no extent
+  F4 origin, scale;  // bin = (centroid - origin) * scale, in [0, kBins); scale 0: the axis has no extent
 };
 
 struct Bins {
@@ -49,25 +39,16 @@ struct Bins {
   }
 };
 
-int bin_of(float c, float origin, float scale) {
-  return std::clamp(static_cast<int>((c - origin) * scale), 0, kBins - 1);
-}
-
 Bounds bounds_of(const Ref* refs, uint32_t begin, uint32_t end) {
   Bounds r;
   for (uint32_t i = begin; i < end; ++i) {
-    const Box& b = refs[i].box;
-    r.box.add(b);
-    for (int k = 0; k < 3; ++k) {
-      const float c = centroid(b, k);
-      r.centroids.lo[k] = std::min(r.centroids.lo[k], c), r.centroids.hi[k] = std::max(r.centroids.hi[k], c);
-    }
+    r.box.add(refs[i].box), r.centroids.add(Box::of(centroid(refs[i].box)));
   }
   return r;
 }
 
-BinGrid make_grid(const Centroids& c) {
-  BinGrid g;
+BinGrid make_grid(const Box& c) {
+  BinGrid g{F4{}, F4{}};
   for (int k = 0; k < 3; ++k) {
     const float extent = c.hi[k] - c.lo[k];
     g.origin[k] = c.lo[k];
@@ -78,12 +59,9 @@ BinGrid make_grid(const Centroids& c) {
 
 void fill_bins(const Ref* refs, uint32_t begin, uint32_t end, const BinGrid& grid, Bins& bins) {
   for (uint32_t i = begin; i < end; ++i) {
-    const Box& b = refs[i].box;
-    for (int k = 0; k < 3; ++k) {
-      const int bin = bin_of(centroid(b, k), grid.origin[k], grid.scale[k]);
-      bins.box[k][bin].add(b);
-      ++bins.count[k][bin];
-    }
+    const Box b = refs[i].box;
+    const I4 at = __builtin_convertvector((centroid(b) - grid.origin) * grid.scale, I4);
+    for (int k = 0; k < 3; ++k) bins.box[k][at[k]].add(b), ++bins.count[k][at[k]];
   }
 }
 
@@ -122,23 +100,9 @@ float choose_split(const Bins& bins, const BinGrid& grid, Range& range) {
   return best;
 }
 
-bool goes_left(const Ref& ref, const Range& r) { return bin_of(centroid(ref.box, r.axis), r.origin, r.scale) <= r.bin; }
+bool goes_left(const Ref& ref, const Range& r) { return static_cast<int>((centroid(ref.box)[r.axis] - r.origin) * r.scale) <= r.bin; }
 
 }  // namespace
-
-Box Box::empty() {
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  return {{inf, inf, inf}, {-inf, -inf, -inf}};
-}
-
-void Box::add(const Box& o) {
-  for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
-}
-
-float Box::half_area() const {
-  const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
-  return x * y + y * z + z * x;
-}
 
 Range Splitter::analyse(uint32_t begin, uint32_t end, bool by_median) const {
   Range range;
