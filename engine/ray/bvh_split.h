@@ -32,13 +32,16 @@ struct Box {
   }
 };
 
-// A box with the number of its primitive, below 2^46, in the mantissas of the fourth numbers: as numbers they are neither small nor large.
+// A box with the number of its primitive in the mantissas of the fourth numbers, half here, half there: as numbers they are of ordinary size.
 struct Ref {
   Box box;
-  void set_primitive(uint32_t p) {
-    box.lo[3] = std::bit_cast<float>(0x3f800000u | (p & 0x7fffff)), box.hi[3] = std::bit_cast<float>(0x3f800000u | p >> 23);
-  }
-  uint32_t primitive() const { return (std::bit_cast<uint32_t>(box.lo[3]) & 0x7fffff) | (std::bit_cast<uint32_t>(box.hi[3]) & 0x7fffff) << 23; }
+  void set_primitive(uint32_t p) { box.lo[3] = ordinary(p & kMantissa), box.hi[3] = ordinary(p >> 23); }
+  uint32_t primitive() const { return mantissa(box.lo[3]) | mantissa(box.hi[3]) << 23; }
+
+ private:
+  static constexpr uint32_t kMantissa = 0x7fffff;
+  static float ordinary(uint32_t m) { return std::bit_cast<float>(0x3f800000u | m); }
+  static uint32_t mantissa(float x) { return std::bit_cast<uint32_t>(x) & kMantissa; }
 };
 
 // A range of references with the way to split it.
