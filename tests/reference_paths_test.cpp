@@ -209,5 +209,18 @@ TEST_F(ReferencePaths, PanesDimAndMirrorsShow) {
   }
 }
 
+// Whether a layer stops a path must not tell where the path goes on: seen at d = 0.4, it adds 0.4 of what it shows at d = 1.
+TEST_F(ReferencePaths, AGlossyLayerShowsWhatItWouldShowOpaque) {
+  const auto seen = [&](const std::string& d) {
+    const Scene scene = load("newmtl pane\nKd 0.4 0.4 0.4\nKs 0.5 0.5 0.5\nNs 10\nillum 2\n" + d,
+                             quad("pane", {-9, 0, -9}, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}),
+                             "ambient = [0.0, 0.0, 0.0]\nlight = []\nbackground = [1.0, 1.0, 1.0]\n");
+    return estimate(scene, camera_at({0, 2, 0.1}, {0, 0, 0}), {}, 200000);
+  };
+  const Estimate opaque = seen(""), layer = seen("d 0.4\n");
+  EXPECT_LT(opaque.mean, 0.8);
+  EXPECT_NEAR(layer.mean, 0.4 * opaque.mean + 0.6, 4.7 * std::hypot(layer.error, 0.4 * opaque.error) + 1e-6);
+}
+
 }  // namespace
 }  // namespace spanray

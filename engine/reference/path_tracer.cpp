@@ -9,8 +9,7 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr uint32_t kSureBounces = 3;  // before Russian roulette begins
 
-// Paths smooth by their number: every place is read as it is, layers pass light by chance, and all that is approximated in the
-// fast renderer by choice is not.
+// Settings that choose approximations of the fast renderer do not count; screen-door patterns are layers.
 Settings for_paths(Settings s) {
   s.shading = Shading::kPhong, s.shadows = Shadows::kRay, s.reflections = Reflections::kRay, s.samples = 1;
   if (s.transparency != Transparency::kNone) s.transparency = Transparency::kAlpha;
