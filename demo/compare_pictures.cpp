@@ -81,6 +81,24 @@ void print(const ImageDifference& d, const Metrics& m, const Image& a, const Ima
               a.rgba[i + 3], b.rgba[i], b.rgba[i + 1], b.rgba[i + 2], b.rgba[i + 3]);
 }
 
+// How much of a picture only linear metrics see.
+uint64_t count_past_white(const ReadPicture& picture) {
+  if (!picture.radiance) return 0;
+  const std::vector<float>& rgb = picture.radiance->rgb;
+  uint64_t count = 0;
+  for (size_t i = 0; i + 2 < rgb.size(); i += 3) count += rgb[i] > 1 || rgb[i + 1] > 1 || rgb[i + 2] > 1;
+  return count;
+}
+
+// Codes end at white: where a picture goes past it, the metrics do not speak of the same.
+void print_past_white(const ReadPicture& a, const ReadPicture& b, const Metrics& m) {
+  const uint64_t in_a = count_past_white(a), in_b = count_past_white(b);
+  if (in_a + in_b == 0) return;
+  std::printf("past_white    %llu pixels of A, %llu of B (rmse_linear and relmse count how far; all others see white)\n",
+              static_cast<unsigned long long>(in_a), static_cast<unsigned long long>(in_b));
+  if (m.flip == 0 && m.rmse_linear > 0) message("flip is 0 only because the pictures differ nowhere but past white: rmse_linear tells them apart");
+}
+
 Result<void> check_files(const CompareOptions& options) {
   std::error_code none;
   std::set<std::filesystem::path> seen;
@@ -144,6 +162,7 @@ int compare_pictures(const CompareOptions& options) {
   if (!metrics) return fail(metrics.error());
   compare_text(options);
   print(difference.value(), metrics.value(), a, b);
+  print_past_white(first.value(), second.value(), metrics.value());
   if (auto done = write_maps(options, a, b, maps, metrics.value().max); !done) return fail(done.error());
   return judge(options, a, b, metrics.value());
 }

@@ -92,6 +92,16 @@ void FrameOptions::add_number(CLI::App& command, const std::string& name, int Se
 
 void FrameOptions::add_to(CLI::App& command) {
   add_without_techniques(command);
+  const auto preset = [this](const std::string& word) {
+    preset_ = preset_from_text(word);
+    if (preset_ != nullptr) return;
+    std::vector<std::string> known;
+    for (const Preset& p : kPresets) known.emplace_back(p.name);
+    throw CLI::ValidationError("--preset", "'" + word + "' is not one of draft|balanced|exact" + did_you_mean(word, known));
+  };
+  command.add_option_function<std::string>("--preset", preset, "Techniques by one word; the options below go over it")
+      ->type_name("draft|balanced|exact")
+      ->excludes("--settings");
   add_word(command, "--shading", &Settings::shading, "Interpolation of light over a triangle");
   add_word(command, "--shadows", &Settings::shadows, "How shadows are found", "map");
   add_word(command, "--reflections", &Settings::reflections, "How mirrors see", "env");
@@ -143,7 +153,13 @@ void FrameOptions::add_without_techniques(CLI::App& command) {
   command.add_flag("--strict", strict_, "Warnings of the scene's files (a missing texture, ...) are errors");
 }
 
+void FrameOptions::say_what_settings_lose(const std::string& command) const {
+  if (!settings_path_.empty())
+    message(command + " turns every technique itself: of " + settings_path_ + " only size, max_bounces, culling and time count");
+}
+
 Settings FrameOptions::settings_over(Settings settings) const {
+  if (preset_ != nullptr) preset_->set(settings);
   for (const auto& change : changes_) change(settings);
   return settings;
 }

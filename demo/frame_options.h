@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "job.h"
+#include "presets.h"
 
 namespace spanray::demo {
 
@@ -29,6 +30,8 @@ class FrameOptions {
   void add_without_techniques(CLI::App& command);
 
   const std::string& scene_path() const { return scene_path_; }
+  // For commands that turn techniques themselves: says that those of --settings do not count, if there are any.
+  void say_what_settings_lose(const std::string& command) const;
   Settings settings_over(Settings settings) const;  // with the options applied
   // The size is somebody's wish: --size, or a file that asks for another than the default. loaded: what load() gave.
   bool size_given(const Settings& loaded) const;
@@ -45,6 +48,7 @@ class FrameOptions {
   std::string scene_path_, camera_name_, settings_path_;
   std::optional<CameraNumbers> camera_;  // go over the scene's first camera
   bool strict_ = false, allow_outside_ = false;
+  const Preset* preset_ = nullptr;  // goes before all changes, wherever it stands
   std::vector<std::function<void(Settings&)>> changes_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "job.h"
+#include "presets.h"
 #include "spanray/settings_text.h"
 
 namespace spanray::demo {
@@ -69,7 +70,20 @@ void add(std::vector<Candidate>& list, const std::string& id, const std::string&
          const Settings& settings) {
   for (const Candidate& known : list)
     if (same_settings(known.settings, settings)) return;
-  list.push_back({slug(id), name, group, settings});
+  list.push_back({slug(id), name, group, settings, ""});
+}
+
+// What knobs without a use would do stays away.
+void add_presets(std::vector<Candidate>& list, const std::vector<Knob>& knobs, const Settings& plain) {
+  for (const Preset& preset : kPresets) {
+    Settings settings = plain;
+    preset.set(settings);
+    for (const Knob& knob : knobs)
+      if (!knob.absent.empty()) knob.choices[knob.plain].set(settings);
+    add(list, std::string("preset ") + preset.name, std::string("preset ") + preset.name, "preset", settings);
+    for (Candidate& candidate : list)
+      if (same_settings(candidate.settings, settings)) candidate.preset = preset.name;
+  }
 }
 
 // All that is cheap; then one knob after the other at its exact choice, in order of the table.
@@ -145,6 +159,7 @@ std::vector<Candidate> make_candidates(const std::vector<Knob>& knobs, const Set
       add(list, knob.name + "-" + choice.word, knob.name + ": " + choice.word, knob.name, turned);
     }
   }
+  add_presets(list, knobs, plain);
   add_ladder(list, knobs, settings);
   return list;
 }

@@ -32,6 +32,7 @@ struct Candidate {
   std::string name;    // for people: shadows none
   std::string group;   // the knob that was turned from the plain settings; "ladder" for steps from all that is cheap to all that is exact
   Settings settings;
+  std::string preset;  // of presets.h that asks for the same on this scene; else empty
 };
 
 // Settings with every knob at its plain, or its exact choice.
@@ -39,7 +40,8 @@ Settings plain_settings(const std::vector<Knob>& knobs, Settings settings);
 Settings exact_settings(const std::vector<Knob>& knobs, Settings settings);
 // Every knob that the scene has a use for at its cheapest, the others plain.
 Settings cheapest_settings(const std::vector<Knob>& knobs, Settings settings);
-// First the plain settings; then each choice of each useful knob by itself; then the ladder. No settings twice.
+// First the plain settings; then each choice of each useful knob by itself; then the presets that are none of these, then the
+// ladder. No settings twice.
 std::vector<Candidate> make_candidates(const std::vector<Knob>& knobs, const Settings& settings);
 
 // Whether both ask for the same picture by the same way.

@@ -89,6 +89,7 @@ int run_report(const ReportCommand& command) {
   if (!job) return fail(job.error());
   if (auto made = make_report_folder(command.out, "report.html"); !made) return fail(made.error());
   for (const std::string& text : job.value().messages) message(text);
+  command.frame.say_what_settings_lose("report");
   Report report;
   report.scene_path = command.frame.scene_path(), report.command = command_line();
   report.job = std::move(job.value()), report.options = command.trade;
@@ -105,7 +106,8 @@ int run_report(const ReportCommand& command) {
   report.not_modelled = find_not_modelled(report.job);
   report.machine = describe_machine(report);
   if (auto written = write_report(command.out, report); !written) return fail(written.error());
-  std::printf("%s/report.html\n", command.out.c_str());
+  std::printf("%s/report.html\nthe ground truth itself errs by %s\n", command.out.c_str(),
+              metrics_text(report.trade.truth_error).c_str());
   return kDone;
 }
 

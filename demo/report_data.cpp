@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <fstream>
@@ -12,7 +13,9 @@
 #include "core/hash.h"
 #include "core/number_text.h"
 #include "scene/scene_data.h"
+#include "report_plan.h"
 #include "stats_json.h"
+#include "truth.h"
 
 namespace spanray::demo {
 namespace {
@@ -35,8 +38,8 @@ std::string shell_word(const std::string& word) {
   return out + "'";
 }
 
-// Infinity, the PSNR of equal pictures, is no number of JSON.
-Json number_json(double v) { return std::isfinite(v) ? Json(v) : Json("inf"); }
+// Infinity, the PSNR of equal pictures, is no number of JSON: null.
+Json number_json(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 Json metrics_json(const Metrics& m) {
   Json out;
@@ -73,6 +76,17 @@ std::vector<std::pair<std::string, std::string>> describe_program() {
           {"command", command_line()}};
 }
 
+std::string metrics_text(const Metrics& metrics) {
+  std::string text;
+  for (const MetricWord& word : kMetricWords) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.4g", metrics.*word.value);
+    text += (text.empty() ? "" : ", ") + std::string(word.name) + " " + number +
+            (*word.unit != 0 ? std::string(" ") + word.unit : "");
+  }
+  return text;
+}
+
 std::vector<Cost> costs(const Report& report) {
   std::vector<Cost> list;
   for (const Measured& m : report.trade.settings) list.push_back({m.median_ms(), m.error.*kRankedBy});
@@ -80,19 +94,20 @@ std::vector<Cost> costs(const Report& report) {
 }
 
 std::string report_csv(const Report& report) {
-  std::string text = "id,group,name";
+  std::string text = "id,group,preset,name";
   for (const auto& stage : kStages)
     if (stage.time != &StageTimes::bvh_build) text += std::string(",median_ms_") + stage.name + ",p95_ms_" + stage.name;
   text += ",bvh_build_ms";
   for (const MetricWord& word : kMetricWords) text += std::string(",") + word.name;
   text += ",wrong_ids";
   for (const MetricWord& word : kMetricWords) text += std::string(",alone_") + word.name;
+  for (const MetricWord& word : kMetricWords) text += std::string(",truth_") + word.name;
   text += ",dominated_by";
   for (const auto& [key, value] : settings_words(report.job.settings)) text += "," + key;
   text += "\n";
   for (size_t i = 0; i < report.trade.settings.size(); ++i) {
     const Measured& m = report.trade.settings[i];
-    text += m.candidate.id + "," + m.candidate.group + "," + quoted(m.candidate.name);
+    text += m.candidate.id + "," + m.candidate.group + "," + m.candidate.preset + "," + quoted(m.candidate.name);
     for (const auto& stage : kStages)
       if (stage.time != &StageTimes::bvh_build)
         text += "," + number_text(m.median_ms(stage.time)) + "," + number_text(m.p95_ms(stage.time));
@@ -100,6 +115,7 @@ std::string report_csv(const Report& report) {
     for (const MetricWord& word : kMetricWords) text += "," + number_text(m.error.*word.value);
     text += "," + (m.wrong_ids ? std::to_string(*m.wrong_ids) : "");
     for (const MetricWord& word : kMetricWords) text += "," + (m.error_alone ? number_text(*m.error_alone.*word.value) : "");
+    for (const MetricWord& word : kMetricWords) text += "," + number_text(report.trade.truth_error.*word.value);
     text += "," + leading_id(report, i);
     for (const auto& [key, value] : settings_words(m.candidate.settings)) text += "," + value;
     text += "\n";
@@ -112,6 +128,8 @@ Json report_json(const Report& report) {
   for (const auto& [key, value] : report.machine) out["about"][key] = value;
   for (const MetricWord& word : kMetricWords)
     if (word.value == kRankedBy) out["ranked_by"] = word.name;
+  out["about"]["psnr_db"] = "null: infinite, the pictures are equal (inf in the CSV)";
+  out["truth_error"] = metrics_json(report.trade.truth_error);
   for (const Knob& knob : report.knobs) {
     Json k = {{"name", knob.name}, {"what", knob.what}, {"used", knob.absent.empty()}};
     if (!knob.absent.empty()) k["why_not"] = knob.absent;
@@ -121,6 +139,7 @@ Json report_json(const Report& report) {
   for (size_t i = 0; i < report.trade.settings.size(); ++i) {
     const Measured& m = report.trade.settings[i];
     Json s = {{"id", m.candidate.id}, {"name", m.candidate.name}, {"group", m.candidate.group}};
+    if (!m.candidate.preset.empty()) s["preset"] = m.candidate.preset;
     for (const auto& [key, value] : settings_words(m.candidate.settings)) s["settings"][key] = value;
     for (const auto& stage : kStages) {
       if (stage.time == &StageTimes::bvh_build) continue;
@@ -136,6 +155,7 @@ Json report_json(const Report& report) {
     out["settings"].push_back(s);
   }
   out["plan"] = plan_json(plan_frame(report.job.scene, plain_settings(report.knobs, report.job.settings)));
+  out["plan_costs"] = plan_costs_json(report);
   out["not_modelled"] = report.not_modelled;
   return out;
 }
@@ -169,6 +189,7 @@ std::string command_line() {
 std::vector<std::pair<std::string, std::string>> describe_machine(const Report& report) {
   const FrameStats& frame = report.trade.settings.at(0).frames.back();
   const Settings& s = report.job.settings;
+  const int other = second_grid(report.options.grid);
   std::vector<std::pair<std::string, std::string>> list = {
       {"scene", report.scene_path},
       {"scene hash", hash_text(report.job.scene.hash())},
@@ -180,7 +201,8 @@ std::vector<std::pair<std::string, std::string>> describe_machine(const Report& 
       {"frames", std::to_string(report.options.frames) + " of each setting after " + std::to_string(report.options.warmup) +
                      ", in turns of five after one that is not measured"},
       {"ground truth", "every knob exact, " + std::to_string(report.options.grid) + " x " + std::to_string(report.options.grid) +
-                           " samples a pixel, double precision, " + std::to_string(std::lround(report.trade.truth_seconds)) +
+                           " samples a pixel, double precision; its own error against a second one with " + std::to_string(other) + " x " + std::to_string(other) +
+                           " at other places; " + std::to_string(std::lround(report.trade.truth_seconds)) +
                            " s; no random numbers, so there is no seed"}};
   for (auto& line : describe_program()) list.push_back(std::move(line));
   return list;

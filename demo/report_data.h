@@ -21,6 +21,9 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> machine;  // machine, compiler, contract, ...: enough to repeat it
 };
 
+// "max 3 of 255, p99.9 ...": every metric, for people.
+std::string metrics_text(const Metrics& metrics);
+
 // The error that settings are ranked by.
 inline constexpr double Metrics::*kRankedBy = &Metrics::flip;
 

@@ -5,10 +5,14 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "core/counted.h"
 #include "core/number_text.h"
+#include "presets.h"
+#include "report_html.h"
+#include "report_plan.h"
 #include "report_plot.h"
 #include "report_style.h"
-#include "spanray/render.h"
+#include "truth.h"
 
 namespace spanray::demo {
 namespace {
@@ -25,42 +29,26 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-// A few significant digits, as the eye wants them; the CSV has all.
-std::string short_number(double v) {
-  char text[40];
-  if (!std::isfinite(v)) return "∞";
-  std::snprintf(text, sizeof text,
-                v >= 100               ? "%.0f"
-                : v >= 10              ? "%.1f"
-                : v >= 1               ? "%.2f"
-                : v >= 0.001 || v == 0 ? "%.4f"
-                                       : "%.1e",
-                v);
-  return text;
-}
-std::string cell(const std::string& text, const char* kind = "") {
-  return std::string("<td") + (*kind != 0 ? " class=\"" + std::string(kind) + "\"" : "") + ">" + text + "</td>";
-}
-std::string cell(double v) { return cell(short_number(v)); }
-std::string hundredths(double v) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.2f", v);
-  return text;
-}
-std::string milliseconds(double v) {
-  char text[40];
-  std::snprintf(text, sizeof text, v >= 100 ? "%.0f" : v >= 10 ? "%.1f" : "%.2f", v);
-  return text;
-}
-std::string head(std::initializer_list<const char*> titles) {
-  std::string text = "<tr>";
-  bool first = true;
-  for (const char* title : titles) text += std::string(first ? "<th class=\"text\">" : "<th>") + title + "</th>", first = false;
-  return text + "</tr>\n";
-}
-
 const Measured& setting(const Report& r, int i) { return r.trade.settings[static_cast<size_t>(i)]; }
 std::string name_of(const Report& r, int i) { return escape_html(setting(r, i).candidate.name); }
+
+// What the errors of this page are worth.
+std::string truth_error(const Report& r) {
+  const Metrics& own = r.trade.truth_error;
+  const int grid = r.options.grid, other = second_grid(grid);
+  const auto near = std::count_if(r.trade.settings.begin(), r.trade.settings.end(),
+                                  [&](const Measured& m) { return m.error.*kRankedBy < 2 * own.*kRankedBy; });
+  std::string text = "<p>The ground truth has " + std::to_string(grid * grid) +
+                     " samples a pixel, and <b>errs itself</b>: from a second one, with " + std::to_string(other * other) +
+                     " samples at other places, it is FLIP <b>" + short_number(own.flip) + "</b> away";
+  for (const MetricWord& word : kMetricWords)
+    if (word.value != kRankedBy) text += std::string(", ") + word.name + " " + short_number(own.*word.value);
+  text += ". Errors as small as that are not known; a larger <code>--grid</code> makes it less.</p>\n";
+  if (near > 0)
+    text += "<p class=\"warn\">" + std::to_string(near) + (near == 1 ? " setting errs" : " settings err") +
+            " by less than twice the error of the ground truth itself: which of them is better is not known.</p>\n";
+  return text;
+}
 
 std::string summary(const Report& r) {
   const Measured& plain = r.trade.settings[0];
@@ -82,12 +70,7 @@ std::string summary(const Report& r) {
           milliseconds(fastest->ms) + " ms and errs by " + short_number(fastest->error) + "; the one that errs least, <i>" +
           name_of(r, static_cast<int>(best - all.begin())) + "</i>, takes " + milliseconds(best->ms) + " ms and errs by " +
           short_number(best->error) + ".</p>\n";
-  int most_samples = 1;
-  for (const Measured& m : r.trade.settings) most_samples = std::max(most_samples, m.candidate.settings.samples);
-  if (const int truth = r.options.grid * r.options.grid; truth <= most_samples)
-    text += "<p class=\"warn\">The ground truth has " + std::to_string(truth) + " samples a pixel, the finest setting " +
-            std::to_string(most_samples) +
-            ": what settings with many samples err is in part what the truth errs. A larger --grid tells them apart.</p>\n";
+  text += truth_error(r);
   const auto disturbed = std::count_if(r.trade.settings.begin(), r.trade.settings.end(),
                                        [](const Measured& m) { return m.p95_ms() > 1.5 * m.median_ms(); });
   if (disturbed > 0)
@@ -98,41 +81,43 @@ std::string summary(const Report& r) {
   return text;
 }
 
-std::string scatter(const Report& r) {
-  std::string text =
-      "<h2>Error against time</h2>\n<p>Each point is a setting. Filled and numbered: the Pareto front, settings that no other "
-      "one beats in both. Hollow: some "
-      "other setting is as fast and errs less, or as little and is faster. A click shows the picture below. Error by <select "
-      "id=\"metric\">";
-  for (const MetricWord& word : kMetricWords)
-    if (!word.more_is_better)
-      text += std::string("<option") + (word.value == kRankedBy ? " selected" : "") + ">" + word.name + "</option>";
-  text += "</select>; the tables below rank by flip.</p>\n";
-  for (const MetricWord& word : kMetricWords) {
-    if (word.more_is_better) continue;
-    std::vector<Cost> points;
-    for (const Measured& m : r.trade.settings) points.push_back({m.median_ms(), m.error.*word.value});
-    const std::vector<int> beaten = dominated_by(points);
-    std::vector<PlotPoint> plot;
-    for (size_t i = 0; i < points.size(); ++i)
-      plot.push_back({points[i], r.trade.settings[i].candidate.id, r.trade.settings[i].candidate.name, beaten[i] < 0});
-    text += std::string("<div class=\"plot\" id=\"plot-") + word.name + "\"" + (word.value == kRankedBy ? "" : " hidden") +
-            ">" + scatter_plot(plot, std::string(word.name) + (*word.unit != 0 ? std::string(" (") + word.unit + ")" : "")) +
-            "</div>\n";
-  }
+// The plot of one metric, and its front as a table: the same numbers in both.
+std::string plot_of(const Report& r, const MetricWord& word) {
+  std::vector<Cost> points;
+  for (const Measured& m : r.trade.settings) points.push_back({m.median_ms(), m.error.*word.value});
+  const std::vector<int> beaten = dominated_by(points);
+  std::vector<PlotPoint> plot;
   std::vector<int> front;
-  for (size_t i = 0; i < r.dominated.size(); ++i)
-    if (r.dominated[i] < 0) front.push_back(static_cast<int>(i));
-  std::sort(front.begin(), front.end(), [&](int a, int b) { return setting(r, a).median_ms() < setting(r, b).median_ms(); });
-  text +=
-      "<h3>The front, by flip</h3>\n<div class=\"wide\"><table>" + head({"Setting", "number", "median ms", "p95 ms", "FLIP"});
+  for (size_t i = 0; i < points.size(); ++i) {
+    plot.push_back({points[i], r.trade.settings[i].candidate.id, r.trade.settings[i].candidate.name, beaten[i] < 0});
+    if (beaten[i] < 0) front.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(front.begin(), front.end(), [&](int a, int b) { return setting(r, a).median_ms() < setting(r, b).median_ms(); });
+  const std::string unit = *word.unit != 0 ? std::string(" (") + word.unit + ")" : "";
+  std::string text = std::string("<div class=\"plot\" id=\"plot-") + word.name + "\"" + (word.value == kRankedBy ? "" : " hidden") + ">" +
+                     scatter_plot(plot, word.name + unit, r.trade.truth_error.*word.value) + "<h3>The front, by " + word.name +
+                     "</h3>\n<div class=\"wide\"><table>" + head({"Setting", "number", "median ms", "p95 ms", (word.name + unit).c_str()});
   for (size_t k = 0; k < front.size(); ++k) {
     const Measured& m = setting(r, front[k]);
     text += "<tr class=\"pick\" data-id=\"" + escape_html(m.candidate.id) + "\">" + cell(name_of(r, front[k]), "text") +
             cell(std::to_string(k + 1), "front") + cell(milliseconds(m.median_ms())) + cell(milliseconds(m.p95_ms())) +
-            cell(m.error.flip) + "</tr>\n";
+            cell(m.error.*word.value) + "</tr>\n";
   }
-  return text + "</table></div>\n";
+  return text + "</table></div></div>\n";
+}
+
+std::string scatter(const Report& r) {
+  std::string text =
+      "<h2>Error against time</h2>\n<p>Each point is a setting. Filled and numbered: the Pareto front, settings that no other "
+      "one beats in both; the table under the plot names them. Hollow: some other setting is as fast and errs less, or as little and is faster. A "
+      "click shows the picture below. Error by <select id=\"metric\">";
+  for (const MetricWord& word : kMetricWords)
+    if (!word.more_is_better)
+      text += std::string("<option") + (word.value == kRankedBy ? " selected" : "") + ">" + word.name + "</option>";
+  text += "</select>; all tables but this one rank by flip.</p>\n";
+  for (const MetricWord& word : kMetricWords)
+    if (!word.more_is_better) text += plot_of(r, word);
+  return text;
 }
 
 // name: as it stands under the heading of its group.
@@ -175,10 +160,30 @@ std::string knob_table(const Report& r) {
             "</span></td></tr>\n";
     text += rows_of(knob.name);
   }
+  if (const std::string presets = rows_of("preset"); !presets.empty())
+    text += "<tr class=\"group\"><td colspan=\"15\">preset <span>those that equal no other row</span></td></tr>\n" + presets;
   text +=
       "<tr class=\"group\"><td colspan=\"15\">ladder <span>from every knob at its cheapest to every knob exact, one after the "
       "other; steps that equal a row above are left out</span></td></tr>\n" +
       rows_of("ladder");
+  return text + "</table></div>\n";
+}
+
+std::string preset_table(const Report& r) {
+  std::string text =
+      "<h2>The presets</h2>\n<p>What <code>--preset</code> of <code>render</code> and <code>walk</code> costs and errs on this "
+      "scene.</p>\n<div class=\"wide\"><table>" +
+      head({"Preset", "median ms", "p95 ms", "FLIP", "RMSE linear", "PSNR dB", "Pareto", "what it asks for"});
+  for (const Preset& preset : kPresets)
+    for (size_t i = 0; i < r.trade.settings.size(); ++i) {
+      const Measured& m = r.trade.settings[i];
+      if (m.candidate.preset != preset.name) continue;
+      text += "<tr class=\"pick\" data-id=\"" + escape_html(m.candidate.id) + "\">" + cell(preset.name, "text") +
+              cell(milliseconds(m.median_ms())) + cell(milliseconds(m.p95_ms())) + cell(m.error.flip) +
+              cell(m.error.rmse_linear) + cell(m.error.psnr_db) +
+              (r.dominated[i] < 0 ? cell("on the front", "front") : cell("beaten by " + name_of(r, r.dominated[i]), "beaten")) +
+              cell(preset.what, "text") + "</tr>\n";
+    }
   return text + "</table></div>\n";
 }
 
@@ -231,28 +236,15 @@ std::string budget_tables(const Report& r) {
 
 const char* const kPictures = R"html(<h2 id="pictures">Pictures</h2>
 <p>Left of the bar <select id="left"></select>, right of it <select id="right"></select></p>
-<div class="slider"><img id="under" alt="left picture"><img id="over" class="over" alt="right picture"><div id="bar" class="bar"></div></div>
-<p><input id="where" type="range" min="0" max="100" value="50" aria-label="where the bar stands"><br>
-<span class="dim"><span id="name-left"></span> | <span id="name-right"></span></span></p>
+<noscript><p class="warn">Choosing and sliding need scripts. Without them, the pictures are in the folder of this page: picture-truth.png, and
+picture-NAME.png, flip-NAME.png and error-NAME.png of each setting. All plots are shown.</p></noscript>
+<div class="needs-script"><div id="slider" class="slider"><img id="under" alt="left picture" draggable="false"><img id="over" class="over" alt="right picture" draggable="false"><div id="bar" class="bar"></div></div>
+<input id="where" type="range" min="0" max="100" step="0.1" value="50" aria-label="where the bar stands">
+<p><span class="dim"><span id="name-left"></span> | <span id="name-right"></span></span></p>
 <div class="pair"><figure><img id="pair-picture" alt="picture"><figcaption id="pair-name"></figcaption></figure>
-<figure><img id="pair-flip" alt="FLIP map"><figcaption>its FLIP against the ground truth: black equal, pale yellow 1</figcaption></figure></div>
+<figure><img id="pair-flip" alt="FLIP map"><figcaption>its FLIP against the ground truth: black equal, pale yellow 1</figcaption></figure></div></div>
 <p class="dim">Differences of codes are in the folder of this page, as error-NAME.png (pale yellow is 64 of 255 or more).</p>
 )html";
-
-std::string plan_section(const Report& r) {
-  std::string text =
-      "<h2>The plan</h2>\n<p>What the plain settings of this scene need. A stage that is not needed allocates nothing and runs "
-      "nothing.</p>\n<div class=\"wide\"><table>"
-      "<tr><th class=\"text\">Stage</th><th>needed</th><th class=\"text\">why</th></tr>\n";
-  for (const PlanLine& line : plan_frame(r.job.scene, plain_settings(r.knobs, r.job.settings)))
-    text += "<tr>" + cell(escape_html(line.stage), "text") + cell(line.needed ? "yes" : "no", line.needed ? "yes" : "") +
-            cell(escape_html(line.reason), "text") + "</tr>\n";
-  text +=
-      "</table></div>\n<h3>Not modelled</h3>\n<p>By no setting, nor by the ground truth, which is that of the renderer's "
-      "model:</p>\n<ul>\n";
-  for (const std::string& line : r.not_modelled) text += "<li>" + escape_html(line) + "</li>\n";
-  return text + "</ul>\n";
-}
 
 std::string machine_section(const Report& r) {
   std::string text = "<h2>To repeat this</h2>\n<div class=\"wide\"><table>\n";
@@ -278,16 +270,14 @@ std::string report_page(const Report& r, const std::vector<PageImage>& images) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\">\n<title>" +
-      title + "</title>\n<style>" + kReportStyle + "</style></head>\n<body>\n<h1>" + title + "</h1>\n<p class=\"dim\">";
+      title + "</title>\n<style>" + kReportStyle + "</style><noscript><style>" + kReportStyleWithoutScript + "</style></noscript></head>\n<body>\n<h1>" + title + "</h1>\n<p class=\"dim\">";
   page += std::to_string(r.job.settings.width) + " x " + std::to_string(r.job.settings.height) + " pixels, " +
           std::to_string(r.job.scene.triangle_count()) + " triangles, " + std::to_string(r.job.scene.light_count()) +
-          " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + std::to_string(r.options.frames) +
-          " frames each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
-  page += summary(r) + scatter(r) + knob_table(r) + kPictures + budget_tables(r) + stage_table(r) + plan_section(r) +
-          machine_section(r);
-  page +=
-      "<noscript><p>The pictures and the choice of the plot need scripts; all else does not.</p></noscript>\n<script>\nconst "
-      "IMAGES = {\n";
+          " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") +
+          " each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
+  page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + budget_tables(r) + stage_table(r) +
+          plan_section(r) + machine_section(r);
+  page += "<script>\nconst IMAGES = {\n";
   for (const PageImage& image : images) {
     page += script_string(image.id) + ": {name: " + script_string(image.name) + ", picture: \"data:image/png;base64," +
             base64(image.picture_png) + "\"";

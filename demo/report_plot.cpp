@@ -33,6 +33,8 @@ class Axis {
     return at_low_ + std::min(part, 1.0) * (at_high_ - at_low_);
   }
   const std::vector<double>& ticks() const { return ticks_; }
+  // Whether there is room for a tick's label: where the axis spans many powers of ten, only these have one.
+  bool labels(double tick) const { return ticks_.size() <= 16 || std::fabs(std::log10(tick) - std::round(std::log10(tick))) < 1e-6; }
 
  private:
   double at_low_, at_high_;
@@ -66,50 +68,98 @@ std::string escape_html(const std::string& text) {
   return out;
 }
 
-std::string scatter_plot(const std::vector<PlotPoint>& points, const std::string& error_name) {
+namespace {
+
+std::string line_svg(const char* kind, double x1, double y1, double x2, double y2) {
+  return std::string("<line class=\"") + kind + "\" x1=\"" + fixed1(x1) + "\" x2=\"" + fixed1(x2) + "\" y1=\"" + fixed1(y1) + "\" y2=\"" +
+         fixed1(y2) + "\"/>";
+}
+std::string text_svg(const char* kind, double x, double y, const char* anchor, const std::string& text) {
+  return std::string("<text") + (*kind != 0 ? std::string(" class=\"") + kind + "\"" : "") + " x=\"" + fixed1(x) + "\" y=\"" + fixed1(y) +
+         "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
+}
+
+struct Box { double x0, y0, x1, y1; };
+bool overlap(const Box& a, const Box& b) { return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1; }
+
+// Numbers beside their points, where nothing else stands; farther off, with a line that leads there, if it is crowded.
+class Labels {
+ public:
+  void block(double x, double y, double radius) { taken_.push_back({x - radius, y - radius, x + radius, y + radius}); }
+  std::string place(double x, double y, const std::string& text) {
+    const double width = 9.0 * static_cast<double>(text.size()), height = 13;
+    Box best{};
+    size_t least = taken_.size() + 1;
+    double led = 0;
+    for (double away = 8; away <= 80 && least > 0; away += 8)
+      for (const auto& [dx, dy] : {std::pair{1.0, -1.0}, {-1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, -1.5}, {0.0, 1.5}, {1.5, 0.0}, {-1.5, 0.0}}) {
+        const double cx = x + dx * (away + width / 2), cy = y + dy * (away + height / 2 - 4);
+        const Box box{cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2};
+        if (box.x0 < kLeft || box.x1 > kWidth || box.y0 < 0 || box.y1 > kHeight - kBottom + 4) continue;
+        const size_t hit = static_cast<size_t>(std::count_if(taken_.begin(), taken_.end(), [&](const Box& t) { return overlap(t, box); }));
+        if (hit < least) least = hit, best = box, led = away;
+      }
+    taken_.push_back(best);
+    const double cx = (best.x0 + best.x1) / 2, cy = (best.y0 + best.y1) / 2;
+    std::string svg;
+    if (led > 12) svg = line_svg("leader", x, y, std::clamp(x, best.x0, best.x1), std::clamp(y, best.y0, best.y1));
+    return svg + text_svg("number", cx, cy + 5, "middle", text);
+  }
+
+ private:
+  std::vector<Box> taken_;
+};
+
+}  // namespace
+
+std::string scatter_plot(const std::vector<PlotPoint>& points, const std::string& error_name, double truth_error) {
   double ms_low = std::numeric_limits<double>::infinity(), ms_high = 0, low = ms_low, high = 0;
+  bool any_zero = false;
   for (const PlotPoint& p : points) {
     ms_low = std::min(ms_low, p.cost.ms), ms_high = std::max(ms_high, p.cost.ms), high = std::max(high, p.cost.error);
     if (p.cost.error > 0) low = std::min(low, p.cost.error);
+    else any_zero = true;
   }
+  if (truth_error > 0) low = std::min(low, truth_error), high = std::max(high, truth_error);
   if (high == 0) low = 0.5, high = 1;
-  const Axis x(ms_low * 0.95, ms_high * 1.05, kLeft, kWidth - kRight), y(low * 0.95, high * 1.05, kHeight - kBottom, kTop);
-  std::string svg =
-      "<svg viewBox=\"0 0 900 460\" role=\"img\" aria-label=\"" + escape_html(error_name) + " against frame time\">\n";
+  const double bottom = kHeight - kBottom, zero = bottom - 10;  // 0 has no place on a logarithmic axis: a row of its own, if need be
+  const Axis x(ms_low * 0.95, ms_high * 1.05, kLeft, kWidth - kRight), y(low * 0.95, high * 1.05, any_zero ? bottom - 30 : bottom, kTop);
+  const auto x_of = [&](const PlotPoint& p) { return x.at(p.cost.ms); };
+  const auto y_of = [&](const PlotPoint& p) { return p.cost.error > 0 ? y.at(p.cost.error) : zero; };
+  std::string svg = "<svg viewBox=\"0 0 900 460\" role=\"img\" aria-label=\"" + escape_html(error_name) + " against frame time\">\n";
   for (const double t : x.ticks())
-    svg += "<line class=\"grid\" x1=\"" + fixed1(x.at(t)) + "\" x2=\"" + fixed1(x.at(t)) + "\" y1=\"" + fixed1(kTop) +
-           "\" y2=\"" + fixed1(kHeight - kBottom) + "\"/><text x=\"" + fixed1(x.at(t)) + "\" y=\"" +
-           fixed1(kHeight - kBottom + 18) + "\" text-anchor=\"middle\">" + tick_text(t) + "</text>\n";
+    svg += line_svg("grid", x.at(t), kTop, x.at(t), bottom) + text_svg("", x.at(t), bottom + 18, "middle", tick_text(t));
   for (const double t : y.ticks())
-    svg += "<line class=\"grid\" x1=\"" + fixed1(kLeft) + "\" x2=\"" + fixed1(kWidth - kRight) + "\" y1=\"" + fixed1(y.at(t)) +
-           "\" y2=\"" + fixed1(y.at(t)) + "\"/><text x=\"" + fixed1(kLeft - 8) + "\" y=\"" + fixed1(y.at(t) + 4) +
-           "\" text-anchor=\"end\">" + tick_text(t) + "</text>\n";
-  svg +=
-      "<text x=\"485\" y=\"452\" text-anchor=\"middle\">median frame time, ms</text>\n<text transform=\"translate(16 215) "
-      "rotate(-90)\" text-anchor=\"middle\">" +
-      escape_html(error_name) + "</text>\n";
+    svg += line_svg("grid", kLeft, y.at(t), kWidth - kRight, y.at(t)) +
+           (y.labels(t) ? text_svg("", kLeft - 8, y.at(t) + 4, "end", tick_text(t)) : "\n");
+  if (any_zero)
+    svg += line_svg("zero", kLeft, zero, kWidth - kRight, zero) + text_svg("", kLeft - 8, zero + 4, "end", "0") +
+           text_svg("", kWidth - kRight - 4, zero - 5, "end", "no error at all (not on the scale)");
+  svg += text_svg("", 485, 452, "middle", "median frame time, ms") + "<text transform=\"translate(16 215) rotate(-90)\" text-anchor=\"middle\">" +
+         escape_html(error_name) + "</text>\n";
+  if (truth_error > 0)
+    svg += line_svg("truth", kLeft, y.at(truth_error), kWidth - kRight, y.at(truth_error)) +
+           text_svg("truth", kWidth - kRight - 4, y.at(truth_error) - 5, "end", "the ground truth's own error");
 
   std::vector<const PlotPoint*> front;
   for (const PlotPoint& p : points)
     if (p.on_front) front.push_back(&p);
-  std::sort(front.begin(), front.end(), [](const PlotPoint* a, const PlotPoint* b) { return a->cost.ms < b->cost.ms; });
+  std::stable_sort(front.begin(), front.end(), [](const PlotPoint* a, const PlotPoint* b) { return a->cost.ms < b->cost.ms; });
   std::string path;
   for (const PlotPoint* p : front)  // until the next point is affordable, this one is the best
-    path += path.empty() ? "M" + fixed1(x.at(p->cost.ms)) + " " + fixed1(y.at(p->cost.error))
-                         : "H" + fixed1(x.at(p->cost.ms)) + "V" + fixed1(y.at(p->cost.error));
+    path += path.empty() ? "M" + fixed1(x_of(*p)) + " " + fixed1(y_of(*p)) : "H" + fixed1(x_of(*p)) + "V" + fixed1(y_of(*p));
   svg += "<path class=\"front\" d=\"" + path + "\"/>\n";
+  Labels labels;
   for (const bool on_front : {false, true})
     for (const PlotPoint& p : points) {
       if (p.on_front != on_front) continue;
       char text[96];
       std::snprintf(text, sizeof text, ": %.4g ms, %s %.4g", p.cost.ms, error_name.c_str(), p.cost.error);
-      svg += std::string("<circle class=\"") + (on_front ? "best" : "other") + "\" data-id=\"" + escape_html(p.id) +
-             "\" cx=\"" + fixed1(x.at(p.cost.ms)) + "\" cy=\"" + fixed1(y.at(p.cost.error)) + "\" r=\"" +
-             (on_front ? "6" : "5") + "\"><title>" + escape_html(p.name + text) + "</title></circle>\n";
+      svg += std::string("<circle class=\"") + (on_front ? "best" : "other") + "\" data-id=\"" + escape_html(p.id) + "\" cx=\"" + fixed1(x_of(p)) +
+             "\" cy=\"" + fixed1(y_of(p)) + "\" r=\"" + (on_front ? "6" : "5") + "\"><title>" + escape_html(p.name + text) + "</title></circle>\n";
+      labels.block(x_of(p), y_of(p), 6);
     }
-  for (size_t i = 0; i < front.size(); ++i)
-    svg += "<text class=\"number\" x=\"" + fixed1(x.at(front[i]->cost.ms) + 8) + "\" y=\"" +
-           fixed1(y.at(front[i]->cost.error) - 8) + "\">" + std::to_string(i + 1) + "</text>\n";
+  for (size_t i = 0; i < front.size(); ++i) svg += labels.place(x_of(*front[i]), y_of(*front[i]), std::to_string(i + 1));
   return svg + "</svg>\n";
 }
 

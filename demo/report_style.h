@@ -17,13 +17,17 @@ tr.plain td { font-weight: 600; } tr.pick { cursor: pointer; } tr.pick:hover td 
 .front { color: var(--best); font-weight: 600; } td.beaten { color: var(--dim); white-space: normal; text-align: left; min-width: 110px; }
 svg { width: 100%; height: auto; max-width: 900px; } svg text { fill: var(--dim); font-size: 13px; } svg .grid { stroke: var(--line); }
 svg path.front { fill: none; stroke: var(--best); stroke-width: 1.5; } circle.best { fill: var(--best); } circle { cursor: pointer; }
-circle.other { fill: var(--paper); stroke: var(--other); stroke-width: 2; } svg .number { fill: var(--best); font-weight: 700; }
-.slider { position: relative; display: inline-block; max-width: 100%; line-height: 0; } .slider img { max-width: 100%; display: block; }
+circle.other { fill: var(--paper); stroke: var(--other); stroke-width: 2; } svg line.truth { stroke: var(--dim); stroke-dasharray: 6 4; } svg .number { fill: var(--best); font-weight: 700; }
+.slider { position: relative; line-height: 0; cursor: ew-resize; touch-action: pan-y; user-select: none; }
+.slider img { width: 100%; display: block; image-rendering: pixelated; }
 .slider .over { position: absolute; inset: 0; } .slider .bar { position: absolute; top: 0; bottom: 0; width: 2px; background: #fff; mix-blend-mode: difference; }
-input[type=range] { width: 100%; max-width: 640px; } select { font: inherit; max-width: 340px; } .warn { border-left: 3px solid var(--best); padding-left: 12px; }
+input[type=range] { width: 100%; margin: 6px 0 0; } select { font: inherit; max-width: 340px; } .warn { border-left: 3px solid var(--best); padding-left: 12px; }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: 16px; } .pair img { width: 100%; } figure { margin: 8px 0; } figcaption { color: var(--dim); font-size: 13px; }
-td.yes { color: var(--best); } @media print { tr.pick { cursor: auto; } }
+svg .leader { stroke: var(--best); stroke-width: 0.8; } svg .zero { stroke: var(--dim); stroke-dasharray: 1 3; } td.yes { color: var(--best); } @media print { tr.pick { cursor: auto; } }
 )css";
+
+// Where no script runs, nothing hides.
+inline constexpr const char* kReportStyleWithoutScript = ".plot[hidden] { display: block !important; } .needs-script { display: none; }";
 
 inline constexpr const char* kReportScript = R"js(
 const by = id => document.getElementById(id);
@@ -44,6 +48,13 @@ for (const side of ['left', 'right'])
 by('left').value = 'truth'; by('right').value = FIRST;
 for (const id of ['left', 'right']) by(id).addEventListener('change', show);
 by('where').addEventListener('input', slide);
+const drag = e => {
+  if (e.type === 'pointermove' && !(e.buttons & 1)) return;
+  const box = by('slider').getBoundingClientRect();
+  by('where').value = Math.max(0, Math.min(100, 100 * (e.clientX - box.left) / box.width));
+  slide();
+};
+for (const kind of ['pointerdown', 'pointermove']) by('slider').addEventListener(kind, drag);
 for (const e of document.querySelectorAll('[data-id]'))
   e.addEventListener('click', () => { by('right').value = e.dataset.id; show(); by('pictures').scrollIntoView({behavior: 'smooth'}); });
 by('metric').addEventListener('change', () => { for (const p of document.querySelectorAll('.plot')) p.hidden = p.id !== 'plot-' + by('metric').value; });

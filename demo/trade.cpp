@@ -4,7 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "render/check_request.h"
+#include "truth.h"
 
 namespace spanray::demo {
 namespace {
@@ -57,16 +57,6 @@ Result<void> measure_times(const Job& job, const TradeOptions& options, std::vec
   return {};
 }
 
-Result<Framebuffer> truth_of(const Job& job, Settings settings, int grid, const Progress& progress) {
-  if (auto possible = check_request(job.scene, job.camera, settings); !possible) return possible.error();
-  ReferenceOptions options;
-  options.threads = job.settings.threads, options.grid = grid;
-  options.progress = progress;
-  Framebuffer out;
-  if (Result<void> done = render_reference(job.scene, job.camera, settings, options, out); !done) return done.error();
-  return out;
-}
-
 // center: the reference with one sample.
 Result<void> measure_errors(const Job& job, const TradeOptions& options, const Image& truth, const Framebuffer& center,
                             std::vector<Measured>& list) {
@@ -108,12 +98,12 @@ Result<Trade> measure_trade(const Job& job, const std::vector<Knob>& knobs, cons
   Trade trade;
   const auto start = std::chrono::steady_clock::now();
   const Settings exact = exact_settings(knobs, job.settings), plain = plain_settings(knobs, job.settings);
-  Result<Framebuffer> truth = truth_of(job, exact, options.grid, Progress(options, "ground truth"));
+  Result<Truth> truth = make_truth(job, job.camera, exact, options.grid, Progress(options, "ground truth"));
   if (!truth) return truth.error();
-  Result<Framebuffer> center = truth_of(job, plain, 0, Progress(options, "ground truth at centers"));
+  Result<Framebuffer> center = render_truth(job, job.camera, plain, 0, Progress(options, "ground truth at centers"));
   if (!center) return center.error();
   trade.truth_seconds = seconds_since(start);
-  trade.truth = std::move(truth.value().color);
+  trade.truth = std::move(truth.value().picture), trade.truth_error = truth.value().error;
   for (const Candidate& candidate : candidates) trade.settings.emplace_back().candidate = candidate;
   if (auto done = measure_errors(job, options, trade.truth, center.value(), trade.settings); !done) return done.error();
   trade.truth_center = std::move(center.value().color);

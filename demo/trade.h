@@ -9,7 +9,6 @@
 #include "job.h"
 #include "knobs.h"
 #include "pareto.h"
-#include "reference/reference.h"
 #include "stage_times.h"
 
 namespace spanray::demo {
@@ -42,7 +41,8 @@ struct TradeOptions {
 
 struct Trade {
   Image truth, truth_center;  // the references: of all samples; of one at each center
-  double truth_seconds = 0;
+  Metrics truth_error;        // of the truth itself (truth.h)
+  double truth_seconds = 0;   // of all references
   std::vector<Measured> settings;  // in order of the candidates
 };
 

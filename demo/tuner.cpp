@@ -1,12 +1,14 @@
 #include "tuner.h"
 
+#include <algorithm>
+
 #include "job.h"
 
 namespace spanray::demo {
 namespace {
 
-// Times that differ by less are taken for equal: so near to each other, they change from run to run.
-constexpr double kNoise = 0.02;
+bool errs_less(const Cost& a, const Cost& b) { return a.error != b.error ? a.error < b.error : a.ms < b.ms; }
+bool faster(const Cost& a, const Cost& b) { return a.ms != b.ms ? a.ms < b.ms : a.error < b.error; }
 
 class Search {
  public:
@@ -43,30 +45,49 @@ class Search {
   }
   const Cost& cost() const { return cost_; }
   const Error& error() const { return error_; }
-  Tuned result(bool kept) const { return {best_, cost_, static_cast<int>(known_.size()), kept}; }
+  Tuned result(const TuneGoal& goal, bool kept) const {
+    Tuned tuned{best_, cost_, static_cast<int>(known_.size()), kept, {}};
+    for (const auto& [key, tried] : known_)
+      if ((goal.by_time ? tried.cost.ms : tried.cost.error) <= goal.budget && !same_settings(tried.settings, best_))
+        tuned.others.push_back(tried);
+    const auto before = goal.by_time ? errs_less : faster;
+    std::stable_sort(tuned.others.begin(), tuned.others.end(),
+                     [&](const Tried& a, const Tried& b) { return before(a.cost, b.cost); });
+    return tuned;
+  }
 
  private:
   const Cost* measured(const Settings& settings) {
     std::string key;
     for (const auto& [name, value] : settings_words(settings)) key += name + "=" + value + " ";
-    if (const auto found = known_.find(key); found != known_.end()) return &found->second;
+    if (const auto found = known_.find(key); found != known_.end()) return &found->second.cost;
     const Result<Cost> cost = evaluate_(settings);
     if (!cost) return error_ = cost.error(), nullptr;
-    return &known_.emplace(key, cost.value()).first->second;
+    return &known_.emplace(key, Tried{settings, cost.value()}).first->second.cost;
   }
 
   const std::vector<Knob>& knobs_;
   const Evaluate& evaluate_;
-  std::map<std::string, Cost> known_;
+  std::map<std::string, Tried> known_;
   Settings best_;
   Cost cost_;
   Error error_;
 };
 
-bool errs_less(const Cost& a, const Cost& b) { return a.error != b.error ? a.error < b.error : a.ms < b.ms; }
-bool faster(const Cost& a, const Cost& b) { return a.ms != b.ms ? a.ms < b.ms : a.error < b.error; }
-
 }  // namespace
+
+int choose_again(const std::vector<Tried>& contenders, const TuneGoal& goal) {
+  int best = -1;
+  for (size_t i = 0; i < contenders.size(); ++i) {
+    const Cost& cost = contenders[i].cost;
+    if ((goal.by_time ? cost.ms : cost.error) > goal.budget) continue;
+    const Cost* const before = best < 0 ? nullptr : &contenders[static_cast<size_t>(best)].cost;
+    const bool better =
+        before == nullptr || (goal.by_time ? errs_less(cost, *before) : cost.ms < (1 - kTimeNoise) * before->ms);
+    if (better) best = static_cast<int>(i);
+  }
+  return best;
+}
 
 Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, const TuneGoal& goal, const Evaluate& evaluate) {
   Search search(knobs, evaluate);
@@ -75,25 +96,24 @@ Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, con
     if (!search.start(cheapest_settings(knobs, settings))) return search.error();
     // Techniques that cost most where they are useless (textures off are no faster everywhere): the way down comes first.
     if (search.cost().ms > budget &&
-        !search.climb(
-            [=](const Cost& c, const Cost& was) {
-              return was.ms > budget && (c.ms <= budget || c.ms < (1 - kNoise) * was.ms);
-            },
-            faster))
+        !search.climb([=](const Cost& c,
+                          const Cost& was) { return was.ms > budget && (c.ms <= budget || c.ms < (1 - kTimeNoise) * was.ms); },
+                      faster))
       return search.error();
-    if (search.cost().ms > budget) return search.result(false);
+    if (search.cost().ms > budget) return search.result(goal, false);
     if (!search.climb([&](const Cost& c, const Cost& was) { return c.ms <= budget && c.error < was.error; }, errs_less))
       return search.error();
-    return search.result(true);
+    return search.result(goal, true);
   }
   if (!search.start(plain_settings(knobs, settings))) return search.error();
   if (search.cost().error > budget &&
       !search.climb([&](const Cost& c, const Cost& was) { return was.error > budget && c.error < was.error; }, errs_less))
     return search.error();
-  if (search.cost().error > budget) return search.result(false);
-  if (!search.climb([&](const Cost& c, const Cost& was) { return c.error <= budget && c.ms < (1 - kNoise) * was.ms; }, faster))
+  if (search.cost().error > budget) return search.result(goal, false);
+  if (!search.climb([&](const Cost& c, const Cost& was) { return c.error <= budget && c.ms < (1 - kTimeNoise) * was.ms; },
+                    faster))
     return search.error();
-  return search.result(true);
+  return search.result(goal, true);
 }
 
 }  // namespace spanray::demo

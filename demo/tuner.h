@@ -14,12 +14,26 @@ struct TuneGoal {
   double budget = 0;
 };
 
+struct Tried {
+  Settings settings;
+  Cost cost;
+};
+
 struct Tuned {
   Settings settings;
   Cost cost;
   int tried = 0;      // settings that were measured
   bool kept = false;  // the budget; else these are the settings that came nearest to it
+  std::vector<Tried> others;  // that keep the budget, too, the best first
 };
+
+// Times that differ by less are taken for equal: so near to each other, they change from run to run.
+inline constexpr double kTimeNoise = 0.02;
+
+// Which of the settings that keep the budget is the best, once their times were measured again: by time the one that errs least
+// of those that still keep it; by error the fastest, but the first where none is faster by more than noise. -1: none keeps the
+// budget.
+int choose_again(const std::vector<Tried>& contenders, const TuneGoal& goal);
 
 // Measures settings: milliseconds, and an error of which less is better. Asked once for each.
 using Evaluate = std::function<Result<Cost>(const Settings&)>;

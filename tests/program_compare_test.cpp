@@ -130,6 +130,15 @@ TEST_F(ProgramCompare, RadianceIsComparedAsItIsShown) {
   EXPECT_NE(std::string::npos, ran.out.find("rmse_linear   9.9")) << ran.out;
   EXPECT_EQ(1, run({"b.pfm", "c.pfm", "--max-error", "rmse_linear=0.00001"}).code);
   EXPECT_EQ(0, run({"a.png", "a.pfm"}).code);
+  EXPECT_EQ(std::string::npos, ran.out.find("past_white")) << ran.out;
+  pfm("w.pfm", 2.0f), pfm("v.pfm", 3.0f);
+  ran = run({"w.pfm", "v.pfm"});
+  EXPECT_NE(std::string::npos, ran.out.find("flip          0.000000\n")) << ran.out;
+  EXPECT_NE(std::string::npos, ran.out.find("rmse_linear   1\n")) << ran.out;
+  EXPECT_NE(std::string::npos, ran.error.find("flip is 0 only because")) << ran.error;
+  ran = run({"a.pfm", "v.pfm"});
+  EXPECT_NE(std::string::npos, ran.out.find("past_white    0 pixels of A, ")) << ran.out;
+  EXPECT_EQ(std::string::npos, ran.error.find("flip is 0")) << ran.error;
   ran = run({"a.pfm", "n.pfm"});
   EXPECT_EQ(1, ran.code);
   EXPECT_NE(std::string::npos, ran.error.find("pixel 0,0 of the second picture is not finite")) << ran.error;

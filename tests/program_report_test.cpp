@@ -8,6 +8,7 @@
 
 #include "../demo/knobs.h"
 #include "../demo/pareto.h"
+#include "../demo/presets.h"
 #include "../demo/report_plot.h"
 #include "../demo/stage_times.h"
 #include "image/metrics.h"
@@ -34,7 +35,7 @@ TEST(ReportPareto, WhoBeatsWhom) {
 
 TEST(ReportPlot, ScalesAreLogarithmicAndNamesAreEscaped) {
   const std::string svg = demo::scatter_plot(
-      {{{1, 0.01}, "a", "<a> & \"b\"", true}, {{10, 0.1}, "b", "b", false}, {{100, 0}, "c", "c", false}}, "flip");
+      {{{1, 0.01}, "a", "<a> & \"b\"", true}, {{10, 0.1}, "b", "b", false}, {{100, 0}, "c", "c", false}}, "flip", 0.001);
   EXPECT_NE(svg.find("&lt;a&gt; &amp; &quot;b&quot;"), std::string::npos);
   EXPECT_EQ(svg.find("<a>"), std::string::npos);
   const auto number = [&](const char* id, const std::string& what) {
@@ -100,6 +101,45 @@ TEST_F(ReportKnobs, EveryChoiceOfEveryUsefulKnobIsMeasuredOnce) {
   EXPECT_GE(useful, 6u);
 }
 
+TEST(ReportPlot, NumbersStandApartAndZeroHasItsOwnRow) {
+  std::vector<demo::PlotPoint> points;
+  for (int i = 0; i < 12; ++i) points.push_back({{10 + 0.1 * i, 0.5 - 0.001 * i}, std::to_string(i), "p", true});  // a crowd
+  points.push_back({{40, 0}, "zero", "zero", true});
+  const std::string svg = demo::scatter_plot(points, "flip", 0);
+  std::vector<std::pair<double, double>> at;
+  const std::string word = "<text class=\"number\" x=\"";
+  for (size_t p = svg.find(word); p != std::string::npos; p = svg.find(word, p + 1)) {
+    const size_t y = svg.find("y=\"", p);
+    at.emplace_back(std::stod(svg.substr(p + word.size())), std::stod(svg.substr(y + 3)));
+  }
+  ASSERT_EQ(at.size(), 13u);
+  for (size_t i = 0; i < at.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      EXPECT_TRUE(std::abs(at[i].first - at[k].first) >= 9 || std::abs(at[i].second - at[k].second) >= 12.9) << i << " " << k;
+  EXPECT_NE(svg.find("class=\"leader\""), std::string::npos);
+  EXPECT_NE(svg.find("no error at all (not on the scale)"), std::string::npos);
+  points.pop_back();
+  EXPECT_EQ(demo::scatter_plot(points, "flip", 0).find("no error at all"), std::string::npos);
+}
+
+TEST_F(ReportKnobs, EveryPresetIsMeasuredAsTheCommandLineHasIt) {
+  const Scene scene = load(SPANRAY_SOURCE_DIR "/assets/gauze.toml");
+  const std::vector<demo::Knob> knobs = demo::make_knobs(scene, scene.settings());
+  const std::vector<demo::Candidate> list = demo::make_candidates(knobs, scene.settings());
+  for (const demo::Preset& preset : demo::kPresets) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const demo::Candidate& c) { return c.preset == preset.name; });
+    ASSERT_NE(found, list.end()) << preset.name;
+    Settings asked = scene.settings();
+    preset.set(asked);
+    Renderer renderer;
+    Framebuffer ours, theirs;
+    Settings measured = found->settings;
+    for (Settings* s : {&asked, &measured}) s->width = 48, s->height = 32;
+    ASSERT_TRUE(renderer.render(scene, scene.cameras()[0], asked, ours) && renderer.render(scene, scene.cameras()[0], measured, theirs));
+    EXPECT_EQ(ours.color.rgba, theirs.color.rgba) << preset.name;
+  }
+}
+
 TEST_F(ReportKnobs, KnobsThatTheSceneHasNoUseForSayWhy) {
   const TempFolder folder;
   folder.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nillum 1\n");
@@ -155,7 +195,7 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
                                "--frames", "6", "--warmup", "1", "--grid", "2"},
                               folder.path());
   ASSERT_EQ(0, ran.code) << ran.error;
-  EXPECT_EQ(ran.out, "out/deep/report.html\n");
+  EXPECT_EQ(ran.out.find("out/deep/report.html\nthe ground truth itself errs by max "), 0u) << ran.out;
   const std::string out = folder.file("out/deep/");
   const std::vector<Row> rows = read_csv(out + "report.csv");
   const nlohmann::json json = nlohmann::json::parse(read_text(out + "report.json"));
@@ -178,6 +218,7 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
     ASSERT_TRUE(m && alone);
     for (const MetricWord& word : kMetricWords) {
       EXPECT_EQ(std::stod(row[word.name]), m.value().*word.value) << word.name;
+      EXPECT_EQ(row[std::string("truth_") + word.name], rows[0].at(std::string("truth_") + word.name));
       const std::string text = row[std::string("alone_") + word.name];
       EXPECT_EQ(text.empty(), row["samples"] != "1");
       if (!text.empty()) {
@@ -195,6 +236,22 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
       EXPECT_LE(std::stoi(row["wrong_ids"]), 48 * 32 / 20);
     }
   }
+  for (const char* grid : {"2", "3"})  // the truth, and the second one that tells what the first errs
+    ASSERT_EQ(0, run_program({"reference", "a<b>&.obj", "--size", "48x32", "--camera", kSmallSceneCamera, "--max-bounces",
+                              rows[0].at("max_bounces"), "--grid", grid, "--out", std::string("truth") + grid + ".png"},
+                             folder.path())
+                     .code);
+  const Result<Image> first = read_png(folder.file("truth2.png")), second = read_png(folder.file("truth3.png"));
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first.value().rgba, truth.value().rgba);
+  const Result<Metrics> own = measure_pictures(second.value(), first.value(), parallel);
+  ASSERT_TRUE(own);
+  EXPECT_GT(own.value().flip, 0);
+  for (const MetricWord& word : kMetricWords) {
+    EXPECT_EQ(std::stod(rows[0].at(std::string("truth_") + word.name)), own.value().*word.value) << word.name;
+    EXPECT_EQ(json["truth_error"][word.name], own.value().*word.value) << word.name;
+  }
+
   const auto beats = [&](size_t a, size_t b) {
     return costs[a].ms <= costs[b].ms && costs[a].error <= costs[b].error &&
            (costs[a].ms < costs[b].ms || costs[a].error < costs[b].error);
@@ -207,14 +264,33 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
     EXPECT_EQ(any, named) << i;
   }
 
+  const auto median_of = [&](const std::string& id) {
+    for (const Row& row : rows)
+      if (row.at("id") == id) return std::stod(row.at("median_ms_frame"));
+    return std::nan("");
+  };
+  size_t priced = 0;
+  for (const nlohmann::json& line : json["plan_costs"]) {
+    priced += line["ms"].is_number();
+    if (line["stage"] == "shadow rays") {
+      EXPECT_TRUE(line["needed"]);
+      EXPECT_EQ(line["ms"], median_of("plain") - median_of("shadows-none"));
+    } else if (line["stage"] == "primary rays") {
+      EXPECT_FALSE(line["needed"]);
+      EXPECT_EQ(line["ms"], median_of("visibility-ray") - median_of("plain"));
+    }
+  }
+  EXPECT_GE(priced, 4u);
+  EXPECT_EQ(json["plan_costs"].size(), json["plan"].size());
+
   const std::string page = read_text(out + "report.html");
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing from elsewhere";
   EXPECT_EQ(page.find("<b>&."), std::string::npos) << "the name of the scene is escaped";
   EXPECT_NE(page.find("a&lt;b&gt;&amp;.obj"), std::string::npos);
   EXPECT_EQ(count_of(page, "data:image/png;base64,"), 1 + 2 * rows.size());
   for (const Row& row : rows) EXPECT_GE(count_of(page, demo::escape_html(row.at("name"))), 2u) << row.at("name");
-  for (const char* word :
-       {"<svg", "no material has one", "Not modelled", "scene hash", "numeric contract", "48x32", "beaten by"})
+  for (const char* word : {"<svg", "no material has one", "Not modelled", "scene hash", "numeric contract", "48x32",
+                           "beaten by", "errs itself", "class=\"truth\"", "The presets", "<noscript>", "6 frames each", "saves, ms"})
     EXPECT_NE(page.find(word), std::string::npos) << word;
 }
 

@@ -98,6 +98,37 @@ TEST_F(Tuner, SaysWhenNothingKeepsTheBudget) {
   EXPECT_EQ(failed.error().message, "broken");
 }
 
+TEST_F(Tuner, NamesWhatElseKeepsTheBudgetTheBestFirst) {
+  for (const bool by_time : {true, false}) {
+    const double budget = by_time ? 58 : 0.5;
+    const demo::Tuned t = tuned(by_time, budget);
+    ASSERT_GE(t.others.size(), 3u);
+    for (size_t i = 0; i < t.others.size(); ++i) {
+      const Cost& c = t.others[i].cost;
+      EXPECT_LE(by_time ? c.ms : c.error, budget);
+      EXPECT_EQ(c.ms, made_up(t.others[i].settings).ms);
+      EXPECT_FALSE(demo::same_settings(t.others[i].settings, t.settings));
+      if (i > 0) {
+        EXPECT_LE(by_time ? t.others[i - 1].cost.error : t.others[i - 1].cost.ms, by_time ? c.error : c.ms);
+      }
+    }
+  }
+}
+
+TEST(TunerAgain, TheSecondMeasurementDecides) {
+  const auto chosen = [](std::vector<Cost> costs, demo::TuneGoal goal) {
+    std::vector<demo::Tried> list;
+    for (const Cost& c : costs) list.push_back({Settings(), c});
+    return demo::choose_again(list, goal);
+  };
+  EXPECT_EQ(chosen({{9, 0.1}, {8, 0.2}}, {true, 10}), 0);
+  EXPECT_EQ(chosen({{11, 0.1}, {8, 0.2}, {9, 0.15}}, {true, 10}), 2)
+      << "the winner was lucky: the best of those that still keep it";
+  EXPECT_EQ(chosen({{11, 0.1}, {10.5, 0.2}}, {true, 10}), -1);
+  EXPECT_EQ(chosen({{10, 0.1}, {9.9, 0.1}, {11, 0.1}}, {false, 0.2}), 0) << "1 % is noise";
+  EXPECT_EQ(chosen({{10, 0.1}, {9.5, 0.2}, {9.4, 0.3}}, {false, 0.2}), 1);
+}
+
 class ProgramTune : public ::testing::Test {
  protected:
   ProgramTune() : scene_(write_small_scene(folder_)) {}
@@ -115,6 +146,10 @@ TEST_F(ProgramTune, WhatItWritesKeepsTheBoundInRender) {
   ASSERT_EQ(0, ran.code) << ran.error;
   EXPECT_EQ(ran.out, read_text(folder_.file("t.toml")));
   EXPECT_NE(ran.out.find("[technique]\nwidth = 48\nheight = 32\n"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("# measured again, 30 frames of each and view in turns:\n"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(": these settings\n"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("# the ground truth itself, with 4 samples a pixel, errs by flip "), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.error.find("this bound is below what can be known"), std::string::npos) << ran.error;
   const auto make = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin() + 1, {scene_, "--camera", kSmallSceneCamera});
     const Ran made = run_program(std::move(arguments), folder_.path());
@@ -131,6 +166,8 @@ TEST_F(ProgramTune, BudgetsThatNothingKeeps) {
   Ran ran = run({"--max-error", "flip=0", "--out", "t.toml"});
   EXPECT_EQ(1, ran.code);
   EXPECT_NE(ran.error.find("no settings keep this budget; the nearest of "), std::string::npos) << ran.error;
+  EXPECT_NE(ran.error.find("this bound is below what can be known; a larger --grid makes it finer"), std::string::npos)
+      << ran.error;
   EXPECT_EQ("", ran.out);
   EXPECT_EQ("", read_text(folder_.file("t.toml")));
   EXPECT_EQ(1, run({"--max-ms", "0.001"}).code);
@@ -148,6 +185,13 @@ TEST_F(ProgramTune, WrongUse) {
   const std::string before = read_text(scene_);
   EXPECT_EQ(2, run({"--max-ms", "100000", "--out", scene_}).code);
   EXPECT_EQ(before, read_text(scene_));
+}
+
+TEST_F(ProgramTune, SaysThatTheTechniquesOfASettingsFileDoNotCount) {
+  folder_.write("s.toml", "[technique]\nshadows = \"none\"\n");
+  const Ran ran = run({"--max-ms", "100000", "--settings", "s.toml"});
+  EXPECT_EQ(0, ran.code) << ran.error;
+  EXPECT_NE(ran.error.find("tune turns every technique itself: of s.toml only "), std::string::npos) << ran.error;
 }
 
 TEST_F(ProgramTune, ASettingsFileIsChecked) {

@@ -91,6 +91,26 @@ TEST_F(ProgramUsage, WhatThisVersionLacksSaysSo) {
   expect_usage({"render", scene_, "--out", "a.png", "--reflections", "env"}, {"--reflections", "this version has no `env`"});
 }
 
+TEST_F(ProgramUsage, APresetIsTheTechniquesThatItNames) {
+  const auto hash = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", scene_, "--hash", "--size", "48x32", "--camera", kSmallSceneCamera});
+    const Ran ran = run(arguments);
+    EXPECT_EQ(0, ran.code) << ran.error;
+    return ran.out;
+  };
+  const std::string draft = hash({"--preset", "draft"});
+  EXPECT_EQ(draft, hash({"--shadows", "none", "--reflections", "none", "--no-bump", "--filter", "bilinear"}));
+  EXPECT_EQ(hash({"--preset", "balanced"}), hash({"--max-bounces", "1", "--samples", "4"}));
+  EXPECT_EQ(hash({"--preset", "exact"}), hash({"--samples", "16", "--antialiasing", "supersample"}));
+  EXPECT_NE(draft, hash({"--preset", "balanced"}));
+  EXPECT_EQ(hash({"--shadows", "ray", "--preset", "draft"}), hash({"--preset", "draft", "--shadows", "ray"})) << "options go over it, wherever they stand";
+  EXPECT_NE(draft, hash({"--preset", "draft", "--shadows", "ray"}));
+  folder_.write("s.toml", "[technique]\nshadows = \"none\"\n");
+  expect_usage({"render", scene_, "--hash", "--preset", "exakt"}, {"--preset", "did you mean 'exact'"});
+  expect_usage({"render", scene_, "--hash", "--preset", "draft", "--settings", "s.toml"}, {"--preset", "--settings"});
+  expect_usage({"report", scene_, "--out", "d", "--preset", "draft"}, {"--preset"});
+}
+
 TEST_F(ProgramUsage, ACameraThatTheSceneLacksIsNamedWithThoseItHas) {
   expect_usage({"render", scene_, "--hash", "--camera", "balcony"}, {"balcony", "it has"});
 }

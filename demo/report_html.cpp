@@ -1,0 +1,41 @@
+#include "report_html.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace spanray::demo {
+
+std::string short_number(double v) {
+  char text[40];
+  if (!std::isfinite(v)) return "∞";
+  std::snprintf(text, sizeof text,
+                v >= 100               ? "%.0f"
+                : v >= 10              ? "%.1f"
+                : v >= 1               ? "%.2f"
+                : v >= 0.001 || v == 0 ? "%.4f"
+                                       : "%.1e",
+                v);
+  return text;
+}
+std::string cell(const std::string& text, const char* kind) {
+  return std::string("<td") + (*kind != 0 ? " class=\"" + std::string(kind) + "\"" : "") + ">" + text + "</td>";
+}
+std::string cell(double v) { return cell(short_number(v)); }
+std::string hundredths(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f", v);
+  return text;
+}
+std::string milliseconds(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, v >= 100 ? "%.0f" : v >= 10 ? "%.1f" : "%.2f", v);
+  return text;
+}
+std::string head(std::initializer_list<const char*> titles) {
+  std::string text = "<tr>";
+  bool first = true;
+  for (const char* title : titles) text += std::string(first ? "<th class=\"text\">" : "<th>") + title + "</th>", first = false;
+  return text + "</tr>\n";
+}
+
+}  // namespace spanray::demo

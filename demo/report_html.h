@@ -1,0 +1,18 @@
+// Cells and numbers of the report's tables.
+#pragma once
+#include <initializer_list>
+#include <string>
+
+namespace spanray::demo {
+
+// A few significant digits, as the eye wants them; the CSV has all.
+std::string short_number(double v);
+std::string hundredths(double v);
+std::string milliseconds(double v);
+// text: HTML. kind: of the style sheet.
+std::string cell(const std::string& text, const char* kind = "");
+std::string cell(double v);
+// A row of titles, which are HTML; the first is that of the column of names.
+std::string head(std::initializer_list<const char*> titles);
+
+}  // namespace spanray::demo
