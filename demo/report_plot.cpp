@@ -139,7 +139,7 @@ std::string scatter_plot(const std::vector<PlotPoint>& points, const std::string
          escape_html(error_name) + "</text>\n";
   if (truth_error > 0)
     svg += line_svg("truth", kLeft, y.at(truth_error), kWidth - kRight, y.at(truth_error)) +
-           text_svg("truth", kWidth - kRight - 4, y.at(truth_error) - 5, "end", "the ground truth's own error");
+           text_svg("truth", kLeft + 4, y.at(truth_error) - 5, "start", "the ground truth's own error");
 
   std::vector<const PlotPoint*> front;
   for (const PlotPoint& p : points)
