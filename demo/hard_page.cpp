@@ -81,7 +81,7 @@ std::string sweep_section(const HardReport& r) {
   if (r.sweeps.empty()) return "";
   std::string text =
       "<h2>Why the contract says what it says</h2>\n<p>Error curves over scale, distance, angle and shape: this renderer, beside what others do, "
-      "written for this page from the sources that are named in <code>hard_cases/rivals.h</code>. Both axes are logarithmic; a value of 0 stands on "
+      "written for this page from the sources that are named in <code>demo/hard_cases/rivals.h</code>. Both axes are logarithmic; a value of 0 stands on "
       "the line at the bottom. Pointing at a mark shows its value.</p>\n";
   for (const HardSweep& s : r.sweeps)
     text += "<h3>" + escape_html(s.sweep.title) + "</h3>\n<p>" + escape_html(s.sweep.what) + "</p>\n" + sweep_plot(s.sweep);

@@ -10,7 +10,8 @@
 namespace spanray::demo {
 namespace {
 
-constexpr double kWidth = 900, kHeight = 400, kLeft = 84, kRight = 20, kTop = 14, kBottom = 52, kZero = 30;  // the last: of the line of zeros
+constexpr double kWidth = 900, kHeight = 400, kLeft = 84, kRight = 20, kTop = 14, kBottom = 52,
+                 kZero = 30;  // the last: of the line of zeros
 
 std::string fixed1(double v) {
   char text[40];
@@ -51,7 +52,8 @@ struct Axis {
 };
 
 std::string line(double x1, double y1, double x2, double y2, const char* kind) {
-  return std::string("<line class=\"") + kind + "\" x1=\"" + fixed1(x1) + "\" y1=\"" + fixed1(y1) + "\" x2=\"" + fixed1(x2) + "\" y2=\"" + fixed1(y2) + "\"/>";
+  return std::string("<line class=\"") + kind + "\" x1=\"" + fixed1(x1) + "\" y1=\"" + fixed1(y1) + "\" x2=\"" + fixed1(x2) +
+         "\" y2=\"" + fixed1(y2) + "\"/>";
 }
 std::string label(double x, double y, const char* anchor, const std::string& text) {
   return "<text x=\"" + fixed1(x) + "\" y=\"" + fixed1(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
@@ -70,7 +72,8 @@ std::string grid(const hard::Sweep& s, const Axis& x, const Axis& y, double zero
   }
   if (y.zero) svg += line(kLeft, zero_at, kWidth - kRight, zero_at, "grid") + label(kLeft - 9, zero_at + 4.5, "end", "0");
   svg += label((kLeft + kWidth - kRight) / 2, kHeight - 8, "middle", escape_html(s.x_name));
-  return svg + "<text transform=\"translate(18 " + fixed1((kTop + bottom) / 2) + ") rotate(-90)\" text-anchor=\"middle\">" + escape_html(s.y_name) + "</text>\n";
+  return svg + "<text transform=\"translate(18 " + fixed1((kTop + bottom) / 2) + ") rotate(-90)\" text-anchor=\"middle\">" +
+         escape_html(s.y_name) + "</text>\n";
 }
 
 // The path, and a mark with its value at each point; wide marks first, so that curves which coincide are all seen.
@@ -88,8 +91,8 @@ std::string curve(const hard::Sweep& s, size_t index, const Axis& x, const Axis&
     path += (down ? "L" : "M") + fixed1(px) + " " + fixed1(py), down = true;
     char text[80];
     std::snprintf(text, sizeof text, ": %.3g at %.3g", c.y[i], s.x[i]);
-    marks += "<circle class=\"" + kind + "\" cx=\"" + fixed1(px) + "\" cy=\"" + fixed1(py) + "\" r=\"" + fixed1(5.5 - 1.2 * static_cast<double>(index)) +
-             "\"><title>" + escape_html(c.name + text) + "</title></circle>\n";
+    marks += "<circle class=\"" + kind + "\" cx=\"" + fixed1(px) + "\" cy=\"" + fixed1(py) + "\" r=\"" +
+             fixed1(5.5 - 1.2 * static_cast<double>(index)) + "\"><title>" + escape_html(c.name + text) + "</title></circle>\n";
   }
   return "<path class=\"" + kind + "\" d=\"" + path + "\"/>\n" + marks;
 }
@@ -97,7 +100,8 @@ std::string curve(const hard::Sweep& s, size_t index, const Axis& x, const Axis&
 std::string legend(const hard::Sweep& s) {
   std::string html = "<ul class=\"legend\">";
   const auto entry = [&](const std::string& kind, const std::string& name, bool strong) {
-    html += "<li><svg viewBox=\"0 0 34 12\"><path class=\"" + kind + "\" d=\"M1 6L33 6\"/></svg> " + (strong ? "<b>" : "") + escape_html(name) + (strong ? "</b>" : "") + "</li>";
+    html += "<li><svg viewBox=\"0 0 34 12\"><path class=\"" + kind + "\" d=\"M1 6L33 6\"/></svg> " + (strong ? "<b>" : "") +
+            escape_html(name) + (strong ? "</b>" : "") + "</li>";
   };
   for (size_t i = 0; i < s.curves.size(); ++i) entry("c" + std::to_string(i), s.curves[i].name, s.curves[i].ours);
   if (!s.bound_name.empty()) entry("bound", s.bound_name, false);
@@ -116,7 +120,8 @@ std::string sweep_plot(const hard::Sweep& s) {
   const double zero_at = kHeight - kBottom - 8;
   x.at_low = kLeft, x.at_high = kWidth - kRight;
   y.at_low = y.zero ? zero_at - kZero : kHeight - kBottom, y.at_high = kTop;
-  std::string svg = "<svg class=\"sweep\" viewBox=\"0 0 900 400\" role=\"img\" aria-label=\"" + escape_html(s.title) + "\">\n" + grid(s, x, y, zero_at);
+  std::string svg = "<svg class=\"sweep\" viewBox=\"0 0 900 400\" role=\"img\" aria-label=\"" + escape_html(s.title) + "\">\n" +
+                    grid(s, x, y, zero_at);
   if (!s.bound.empty()) {
     std::string path;
     for (size_t i = 0; i < s.x.size(); ++i) path += (i == 0 ? "M" : "L") + fixed1(x.at(s.x[i])) + " " + fixed1(y.at(s.bound[i]));

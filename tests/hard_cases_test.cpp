@@ -1,4 +1,4 @@
-// Every row of the table of hard cases (hard_cases/), with the counts that a test suite can afford.
+// Every row of the table of hard cases (demo/hard_cases/), with the counts that a test suite can afford.
 #include <gtest/gtest.h>
 
 #include <algorithm>

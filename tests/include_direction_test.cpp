@@ -73,7 +73,7 @@ void check_include(const std::string& file, const std::string& room, int line, c
 Found check_tree(const fs::path& root) {
   static const std::regex kInclude("^\\s*#\\s*include\\s*[\"<]([^\">]+)[\">]");
   Found found;
-  for (const char* top : {"engine", "demo", "hard_cases"}) {
+  for (const char* top : {"engine", "demo"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;

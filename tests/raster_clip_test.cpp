@@ -1,4 +1,4 @@
-// The pieces of clipped polygons. What clipping promises of edges, eyes and bad vertices: hard_cases/clipping.cpp (R3, R9 to R14).
+// The pieces of clipped polygons. What clipping promises of edges, eyes and bad vertices: demo/hard_cases/clipping.cpp (R3, R9 to R14).
 #include <gtest/gtest.h>
 
 #include <cmath>

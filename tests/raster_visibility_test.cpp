@@ -1,4 +1,4 @@
-// What each pixel sees, from world triangles to the visibility buffer. Also: hard_cases/meshes.cpp, hard_cases/depth.cpp.
+// What each pixel sees, from world triangles to the visibility buffer. Also: demo/hard_cases/meshes.cpp, demo/hard_cases/depth.cpp.
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 

@@ -60,7 +60,8 @@ void expect_groups_as_brute_force(double scale, const glm::dvec3& move, uint32_t
     const glm::dvec3 to_light = move + lights[light] * scale - ray_origin(rays, i);
     const float t_max[kEnds] = {1.0f, std::nextafter(1.0f, 0.0f), kInfinity, static_cast<float>(random.uniform(0, 1))};
     set_ray(rays, i, ray_origin(rays, i), end == 2 ? lights[light] - corner : to_light, t_max[end]);
-    rays.pixel[static_cast<size_t>(i)] = static_cast<uint32_t>(i % 16 + 16 * (group % 64)) | static_cast<uint32_t>(i / 16 % 16 + 16 * (group / 64)) << 16;
+    rays.pixel[static_cast<size_t>(i)] =
+        static_cast<uint32_t>(i % 16 + 16 * (group % 64)) | static_cast<uint32_t>(i / 16 % 16 + 16 * (group / 64)) << 16;
   }
   const Answers want = brute_force(*t, rays);
   EXPECT_GT(std::count(want.any.begin(), want.any.end(), true), rays.count / 20);

@@ -75,7 +75,8 @@ size_t BvhRefit::memory_bytes() const {
 BvhRefit::BvhRefit(const Bvh& bvh, const std::vector<MovingRun>& moving) {
   const Bvh::Data& data = bvh.data();
   const auto moves = [&](uint32_t primitive) {
-    const auto after = std::upper_bound(moving.begin(), moving.end(), primitive, [](uint32_t p, const MovingRun& run) { return p < run.first; });
+    const auto after = std::upper_bound(moving.begin(), moving.end(), primitive,
+                                        [](uint32_t p, const MovingRun& run) { return p < run.first; });
     return after != moving.begin() && primitive < (after - 1)->first + (after - 1)->count;
   };
   // Height of a node above its lowest moving leaf, 0: nothing moves in it. The builder puts parents before their children.

@@ -30,7 +30,8 @@ HWY_INLINE bool coherent(const RayPacket& p) {
   return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays;
 }
 
-// How many rays from `first` on, in whole packets but for the last of the batch, belong to one cell of the picture: they have much in common.
+// How many rays from `first` on, in whole packets but for the last of the batch, belong to one cell of the picture: they have
+// much in common.
 HWY_INLINE int same_cell(const RayBatch& rays, int first) {
   const auto cell = [&](int i) { return rays.pixel[static_cast<size_t>(i)] & kCellMask; };
   int n = kLanes;

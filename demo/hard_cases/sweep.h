@@ -1,5 +1,5 @@
-// Sweeps: an error as a function of scale, distance, angle or shape, ours beside what other renderers do, with the contract's bound. They show
-// why the contract says what it says; the rows of hard_case.h say whether it is kept.
+// Sweeps: an error as a function of scale, distance, angle or shape, ours beside what other renderers do, with the contract's
+// bound. They show why the contract says what it says; the rows of hard_case.h say whether it is kept.
 #pragma once
 #include <string>
 #include <vector>

@@ -44,9 +44,12 @@ Sweep sweep_depth_steps(const Effort& effort) {
   Sweep s;
   s.title = "What a depth buffer can tell apart, by distance";
   s.what =
-      "The least relative difference of view depths that a buffer can tell apart, near plane at 1e-4, far plane at 1e6. Above 1 it cannot "
-      "tell a surface from one twice as far. Standard formats spend nearly all of their codes right behind the near plane, also in float; z "
-      "reversed in float keeps float's own relative step everywhere, and needs no far plane. The lowest curve is the measured error of this "
+      "The least relative difference of view depths that a buffer can tell apart, near plane at 1e-4, far plane at 1e6. Above "
+      "1 it cannot "
+      "tell a surface from one twice as far. Standard formats spend nearly all of their codes right behind the near plane, "
+      "also in float; z "
+      "reversed in float keeps float's own relative step everywhere, and needs no far plane. The lowest curve is the measured "
+      "error of this "
       "renderer's depth on tilted walls, against the exact ray.";
   s.x_name = "view depth", s.y_name = "relative step";
   s.x = decades(-3.5, 5.5, 0.5);

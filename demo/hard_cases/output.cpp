@@ -65,7 +65,8 @@ Finding t3_many_layers(const Effort& effort) {
     }
     l.out.channel[0][0] = l.out.channel[1][0] = l.out.channel[2][0] = 0.7f;
     std::iota(by_t.begin(), by_t.end(), 0);
-    std::sort(by_t.begin(), by_t.end(), [&](int a, int b) { return l.fragments.t[a] != l.fragments.t[b] ? l.fragments.t[a] > l.fragments.t[b] : a > b; });
+    std::sort(by_t.begin(), by_t.end(),
+              [&](int a, int b) { return l.fragments.t[a] != l.fragments.t[b] ? l.fragments.t[a] > l.fragments.t[b] : a > b; });
     double want = 0.7f, through = 1;
     for (const int i : by_t) {
       const double a = l.fragments.opacity[i];
@@ -78,7 +79,8 @@ Finding t3_many_layers(const Effort& effort) {
   return within(codes, 1, "of 255", "stacks", 100);
 }
 
-// Accepted pixels of each 8 x 8 mask tile for all opacities in 1/256; then a frame of two screen-door soups with its objects in another order.
+// Accepted pixels of each 8 x 8 mask tile for all opacities in 1/256; then a frame of two screen-door soups with its objects in
+// another order.
 Finding t4_screen_door(const Effort& effort) {
   Tally tiles;
   for (const Isa isa : supported_isas())
@@ -93,7 +95,8 @@ Finding t4_screen_door(const Effort& effort) {
           tiles.check(count == static_cast<int>(std::floor(opacity * 64 + 0.5f)));
         }
     }
-  std::vector<Material> materials = {material_of_kind(MaterialTransparency::kScreenDoor, 0.4f), material_of_kind(MaterialTransparency::kScreenDoor, 0.7f)};
+  std::vector<Material> materials = {material_of_kind(MaterialTransparency::kScreenDoor, 0.4f),
+                                     material_of_kind(MaterialTransparency::kScreenDoor, 0.7f)};
   for (size_t m = 0; m < 2; ++m)
     for (int k = 0; k < 3; ++k) materials[m].emission[k] = 0.1f + 0.2f * static_cast<float>((m + static_cast<size_t>(k)) % 3);
   TestRandom random(4);
@@ -128,10 +131,12 @@ Finding t5_shared_diagonal(const Effort& effort) {
     const glm::dvec3 a = at(x0, y0), b = at(x0 + size, y0), c = at(x0 + size, y0 + size), d = at(x0, y0 + size);
     Camera camera = camera_at({0, 0, 1}, {0, 0, 0});
     camera.fov_y_degrees = 90;
-    const auto t = make_test_frame(make_test_scene({soup_triangle(a, c, b), soup_triangle(a, d, c)}, {translucent_material()}), camera, test_settings(64, 64));
+    const auto t = make_test_frame(make_test_scene({soup_triangle(a, c, b), soup_triangle(a, d, c)}, {translucent_material()}),
+                                   camera, test_settings(64, 64));
     const std::vector<int> count = count_fragments(t->frame, run_front_end(t->frame).bins);
     for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) cases.check(count[static_cast<size_t>(y * 64 + x)] == int{x >= x0 && x < x0 + size && y >= y0 && y < y0 + size});
+      for (int x = 0; x < 64; ++x)
+        cases.check(count[static_cast<size_t>(y * 64 + x)] == int{x >= x0 && x < x0 + size && y >= y0 && y < y0 + size});
   }
   const float odd[] = {0.0f, -0.0f, kInf, 1e-45f, 3e38f, 0.1f};
   for (const float behind : odd)
@@ -146,8 +151,8 @@ Finding t5_shared_diagonal(const Effort& effort) {
   return none_wrong(cases, "pixels and blends", 100000);
 }
 
-// Every code there and back, from 16-bit texels and from floats; every float from 2^-14 to 2 (or some of them): monotone, and each step within
-// one float of where long double puts it.
+// Every code there and back, from 16-bit texels and from floats; every float from 2^-14 to 2 (or some of them): monotone, and
+// each step within one float of where long double puts it.
 Finding o1_srgb(const Effort& effort) {
   Tally values;
   for (int k = 0; k < 256; ++k) {
@@ -167,8 +172,8 @@ Finding o1_srgb(const Effort& effort) {
   for (int k = 0; k < 255; ++k) {
     const long double step = exact_decode((k + 0.5L) / 255);
     const float first = srgb_encode_table().step[k];
-    values.check(srgb8_from_linear(first) == k + 1 && srgb8_from_linear(from_bits(bits(first) - 1)) == k && first >= step * (1 - 0x1p-40L) &&
-                 from_bits(bits(first) - 1) < step * (1 + 0x1p-40L));
+    values.check(srgb8_from_linear(first) == k + 1 && srgb8_from_linear(from_bits(bits(first) - 1)) == k &&
+                 first >= step * (1 - 0x1p-40L) && from_bits(bits(first) - 1) < step * (1 + 0x1p-40L));
   }
   return none_wrong(values, "values", 1000000);
 }
@@ -176,7 +181,9 @@ Finding o1_srgb(const Effort& effort) {
 // Through the row encoder of every instruction set.
 Finding o2_not_finite(const Effort&) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<float> x = {nan, -nan, from_bits(0x7fa00000), -kInf, -1.0f, -0.0f, 0.0f, from_bits(1), -from_bits(1), 1.0f, 2.0f, 3e38f, kInf, from_bits(bits(1.0f) - 1)};
+  const std::vector<float> x = {
+      nan,   -nan, from_bits(0x7fa00000),    -kInf, -1.0f, -0.0f, 0.0f, from_bits(1), -from_bits(1), 1.0f, 2.0f,
+      3e38f, kInf, from_bits(bits(1.0f) - 1)};
   Tally values;
   for (const Isa isa : supported_isas()) {
     const float* const planes[3] = {x.data(), x.data(), x.data()};
@@ -184,7 +191,8 @@ Finding o2_not_finite(const Effort&) {
     encode_row(isa, planes, static_cast<int>(x.size()), rgba.data());
     for (size_t i = 0; i < x.size(); ++i) {
       const uint8_t want = i < 9 ? 0 : 255;
-      values.check(rgba[4 * i] == want && rgba[4 * i + 1] == want && rgba[4 * i + 2] == want && rgba[4 * i + 3] == 255 && srgb8_from_linear(x[i]) == want);
+      values.check(rgba[4 * i] == want && rgba[4 * i + 1] == want && rgba[4 * i + 2] == want && rgba[4 * i + 3] == 255 &&
+                   srgb8_from_linear(x[i]) == want);
     }
   }
   return none_wrong(values, "values", 14);

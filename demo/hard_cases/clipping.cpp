@@ -129,8 +129,9 @@ Finding r9_extents(const Effort& effort) {
   for (int n = 0; n < effort.count(150, 15); ++n) check_huge(1e5, n, random, pixels, &pixels);
   Tally all = triangles;
   all.add(pixels);
-  return none_wrong(all, "triangles and pixels", 30000,
-                    grouped(triangles.checked()) + " triangles up to 2^15 pixels, " + grouped(pixels.checked()) + " pixels of walls of 2^23");
+  return none_wrong(
+      all, "triangles and pixels", 30000,
+      grouped(triangles.checked()) + " triangles up to 2^15 pixels, " + grouped(pixels.checked()) + " pixels of walls of 2^23");
 }
 
 Finding r10_huge_vertices(const Effort& effort) {

@@ -31,7 +31,8 @@ long double view_depth(long double d, long double n, long double f) { return f *
 
 double depth_step_fixed24(double z, double near_plane, double far_plane) {
   const long double codes = (1 << 24) - 1, code = std::floor(standard_depth(z, near_plane, far_plane) * codes);
-  const long double here = view_depth(code / codes, near_plane, far_plane), next = view_depth(std::min((code + 1) / codes, 1.0L), near_plane, far_plane);
+  const long double here = view_depth(code / codes, near_plane, far_plane),
+                    next = view_depth(std::min((code + 1) / codes, 1.0L), near_plane, far_plane);
   return static_cast<double>((next - here) / here);
 }
 
@@ -53,7 +54,8 @@ std::array<double, 3> weights_in_float(const glm::vec3& direction, const std::ar
   return {double{e[0] / sum}, double{e[1] / sum}, double{e[2] / sum}};
 }
 
-std::array<double, 3> weights_of_snapped(double x, double y, const std::array<double, 3>& px, const std::array<double, 3>& py, const std::array<double, 3>& w) {
+std::array<double, 3> weights_of_snapped(double x, double y, const std::array<double, 3>& px, const std::array<double, 3>& py,
+                                         const std::array<double, 3>& w) {
   double sx[3], sy[3], e[3], sum = 0;
   for (size_t i = 0; i < 3; ++i) sx[i] = snap_24_8(px[i]) / 256.0, sy[i] = snap_24_8(py[i]) / 256.0;
   for (size_t i = 0; i < 3; ++i) {

@@ -72,7 +72,9 @@ Finding i3_equal_attributes(const Effort& effort) {
   for (int n = 0; n < effort.count(60, 8); ++n) {
     const glm::dvec3 normal = normalize3(random_point(random) + glm::dvec3(0, 0, 1.8), glm::dvec3(0, 0, 1));
     const glm::dvec3 a = random_point(random, 0.4), b = random_point(random, 0.4), c = random_point(random, 0.4);
-    const SoupTriangle tri = with_normals(soup_triangle(a + glm::dvec3(-1.1, -1, 0), b + glm::dvec3(1.3, -0.9, 0), c + glm::dvec3(0, 1.2, 0)), normal, normal, normal);
+    const SoupTriangle tri =
+        with_normals(soup_triangle(a + glm::dvec3(-1.1, -1, 0), b + glm::dvec3(1.3, -0.9, 0), c + glm::dvec3(0, 1.2, 0)),
+                     normal, normal, normal);
     auto t = full_frame(make_test_scene({tri}), Camera{}, 640, 640);
     HitBatch hits;
     for (uint32_t y = 200; y < 460; y += 3)
@@ -82,7 +84,8 @@ Finding i3_equal_attributes(const Effort& effort) {
       SurfaceBatch s;
       resolve_surfaces(t->frame, hits, s);
       for (int i = 0; i < hits.count; ++i)
-        for (int k = 0; k < 3; ++k) values.check(bits_of(s.normal[k][i]) == bits_of(s.normal[k][0]) && std::fabs(s.normal[k][i] - normal[k]) < 1e-6);
+        for (int k = 0; k < 3; ++k)
+          values.check(bits_of(s.normal[k][i]) == bits_of(s.normal[k][0]) && std::fabs(s.normal[k][i] - normal[k]) < 1e-6);
     }
   }
   return none_wrong(values, "components of normals", 100000);
@@ -118,7 +121,9 @@ Finding i4_opposed_normals(const Effort& effort) {
 
 // Bump and normal map where there is no tangent: the normal stays as it is. Where there is an extreme one: finite.
 Finding i5_zero_uv_area(const Effort&) {
-  const auto tri = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return with_uv(soup_triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}), a, b, c); };
+  const auto tri = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    return with_uv(soup_triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}), a, b, c);
+  };
   const std::vector<SoupTriangle> soup = {
       tri({0.3, 0.3}, {0.3, 0.3}, {0.3, 0.3}),  // all equal
       tri({0, 0}, {1, 0}, {0.5, 0}),            // along u
@@ -145,7 +150,8 @@ Finding i5_zero_uv_area(const Effort&) {
     for (int i = 0; i < hits.count; ++i) {
       bool right = true;
       for (int k = 0; k < 3; ++k)
-        right &= std::isfinite(s.normal[k][i]) && (hits.primitive[static_cast<size_t>(i)] >= 4 || bits_of(s.normal[k][i]) == bits_of(plain.normal[k][i]));
+        right &= std::isfinite(s.normal[k][i]) &&
+                 (hits.primitive[static_cast<size_t>(i)] >= 4 || bits_of(s.normal[k][i]) == bits_of(plain.normal[k][i]));
       surfaces.check(right);
     }
   }

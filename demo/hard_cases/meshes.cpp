@@ -33,7 +33,8 @@ Finding r6_no_area(const Effort& effort) {
   for (int batch = 0; batch < effort.count(20, 2); ++batch) {
     std::vector<SoupTriangle> soup;
     for (int n = 0; n < 1000; ++n) {
-      const double x = random.between(0, 200 * 256), y = random.between(0, 200 * 256), dx = random.between(-1000, 1000), dy = random.between(-1000, 1000);
+      const double x = random.between(0, 200 * 256), y = random.between(0, 200 * 256), dx = random.between(-1000, 1000),
+                   dy = random.between(-1000, 1000);
       const auto near_line = [&](double s) {
         const glm::dvec3 off = random_point(random, 0.4);
         return at_pixel((x + s * dx + off.x) / 256, (y + s * dy + off.y) / 256);
@@ -42,7 +43,8 @@ Finding r6_no_area(const Effort& effort) {
       soup.push_back(soup_triangle(a, b, near_line(n % 3)));
     }
     for (const Isa isa : supported_isas()) {
-      const auto t = make_test_frame(make_test_scene(soup, {translucent_material()}), right_angle_camera(), test_settings(kSide, kSide, isa));
+      const auto t = make_test_frame(make_test_scene(soup, {translucent_material()}), right_angle_camera(),
+                                     test_settings(kSide, kSide, isa));
       const FrontEnd front = run_front_end(t->frame);
       triangles.add(front.counts.triangles_drawn, front.counts.triangles_in);
     }
@@ -72,7 +74,8 @@ Finding r7_sub_pixel_mesh(const Effort& effort) {
         soup.push_back(soup_triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)));
       }
     most = std::max<uint64_t>(most, soup.size());
-    const auto t = make_test_frame(make_test_scene(soup, {translucent_material()}), camera_at({0, 0, 1}, {0, 0, 0}), test_settings(side, side, isa));
+    const auto t = make_test_frame(make_test_scene(soup, {translucent_material()}), camera_at({0, 0, 1}, {0, 0, 0}),
+                                   test_settings(side, side, isa));
     const FrontEnd front = run_front_end(t->frame);
     for (const int n : count_fragments(t->frame, front.bins)) pixels.check(n == 1);
     pixels.check(front.counts.triangles_in == front.counts.triangles_drawn + front.counts.triangles_culled());
@@ -103,13 +106,15 @@ Finding r15_t_junctions(const Effort& effort) {
           for (const ScreenTriangle& s : chunk.triangles) want += oracle_covers(s, x, y);
         pixels.check(count[static_cast<size_t>(y * kSide + x)] == want);
         const glm::dvec3 p = at_pixel(x + 0.5, y + 0.5);
-        const double edge = std::fabs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / std::hypot(b.x - a.x, b.y - a.y) * (kSide / 2);
+        const double edge =
+            std::fabs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / std::hypot(b.x - a.x, b.y - a.y) * (kSide / 2);
         if (edge > 1 || p.y > a.y - 0.02 || p.y < b.y + 0.02) continue;  // beside the edge, away from its ends
         ++along, cracks += want != 1;
       }
   }
   return none_wrong(pixels, "pixels", 1000000,
-                    "of " + grouped(along) + " pixels along the edges " + grouped(cracks) + " lie in the crack: split the edge on both sides");
+                    "of " + grouped(along) + " pixels along the edges " + grouped(cracks) +
+                        " lie in the crack: split the edge on both sides");
 }
 
 Finding r16_small_pictures(const Effort&) {

@@ -9,7 +9,9 @@
 namespace spanray::hard {
 namespace {
 
-std::unique_ptr<TestFrame> frame_of(const std::vector<SoupTriangle>& soup) { return make_test_frame(make_test_scene(soup), Camera(), test_settings(16, 16)); }
+std::unique_ptr<TestFrame> frame_of(const std::vector<SoupTriangle>& soup) {
+  return make_test_frame(make_test_scene(soup), Camera(), test_settings(16, 16));
+}
 
 // "Closest" and "any" of every ray must be what `want` says (kNoPrimitive: a miss).
 void check_answers(TestFrame& t, const Bvh& bvh, const RayBatch& rays, const std::vector<uint32_t>& want, Isa isa, Tally& tally) {
@@ -76,8 +78,8 @@ Finding y4_zeros(const Effort& effort) {
   return none_wrong(answers, "rays", 6000);
 }
 
-// Against the engine's own triangle test over all triangles; and, of some rays, against an independent test in extended precision, where that
-// can tell inside from outside.
+// Against the engine's own triangle test over all triangles; and, of some rays, against an independent test in extended
+// precision, where that can tell inside from outside.
 Finding y5_brute_force(const Effort& effort) {
   std::vector<SoupTriangle> soup;
   TestRandom random(22);
@@ -153,18 +155,35 @@ Finding y9_bad_rays(const Effort&) {
   struct Case { glm::dvec3 origin, direction; float t_max; bool hit; };
   const std::vector<Case> cases = {
       // A hit at exactly t_max counts.
-      {{0, 0, 0}, z, kInfinity, true}, {{0, 0, 0}, z, 2.0f, true}, {{0, 0, 0}, z, std::nextafter(2.0f, 0.0f), false},
-      {{0, 0, 0}, z * 8.0, 0.25f, true}, {{0, 0, 0}, z * 8.0, std::nextafter(0.25f, 0.0f), false}, {{0.2, 0.1, 0}, z * 3.0, 2.0f / 3 * 1.0000001f, true},
+      {{0, 0, 0}, z, kInfinity, true},
+      {{0, 0, 0}, z, 2.0f, true},
+      {{0, 0, 0}, z, std::nextafter(2.0f, 0.0f), false},
+      {{0, 0, 0}, z * 8.0, 0.25f, true},
+      {{0, 0, 0}, z * 8.0, std::nextafter(0.25f, 0.0f), false},
+      {{0.2, 0.1, 0}, z * 3.0, 2.0f / 3 * 1.0000001f, true},
       // Directions and origins that are no numbers, zero, infinite.
-      {{0, 0, 0}, {0, 0, 0}, kInfinity, false}, {{0, 0, 0}, {-0.0, 0, -0.0}, kInfinity, false}, {{0, 0, 0}, {nan, 0, 1}, kInfinity, false},
-      {{0, 0, 0}, {0, nan, nan}, kInfinity, false}, {{0, 0, 0}, {0, 0, inf}, kInfinity, false}, {{0, 0, 0}, {-inf, 0, 1}, kInfinity, false},
-      {{nan, 0, 0}, z, kInfinity, false}, {{0, inf, 0}, z, kInfinity, false}, {{0, 0, -inf}, z, kInfinity, false},
-      {{0, 0, 0}, z, static_cast<float>(nan), false}, {{0, 0, 0}, z, -1.0f, false}, {{0, 0, 0}, z, 0.0f, false},
+      {{0, 0, 0}, {0, 0, 0}, kInfinity, false},
+      {{0, 0, 0}, {-0.0, 0, -0.0}, kInfinity, false},
+      {{0, 0, 0}, {nan, 0, 1}, kInfinity, false},
+      {{0, 0, 0}, {0, nan, nan}, kInfinity, false},
+      {{0, 0, 0}, {0, 0, inf}, kInfinity, false},
+      {{0, 0, 0}, {-inf, 0, 1}, kInfinity, false},
+      {{nan, 0, 0}, z, kInfinity, false},
+      {{0, inf, 0}, z, kInfinity, false},
+      {{0, 0, -inf}, z, kInfinity, false},
+      {{0, 0, 0}, z, static_cast<float>(nan), false},
+      {{0, 0, 0}, z, -1.0f, false},
+      {{0, 0, 0}, z, 0.0f, false},
       // t = 0 is not in front.
-      {{0, 0, 0}, -z, kInfinity, false}, {{0, 0, 2}, z, kInfinity, false}, {{0, 0, 2}, -z, kInfinity, false},
+      {{0, 0, 0}, -z, kInfinity, false},
+      {{0, 0, 2}, z, kInfinity, false},
+      {{0, 0, 2}, -z, kInfinity, false},
       // Denormal and huge directions are directions.
-      {{0, 0, 0}, {0, 0, 1e-45}, kInfinity, true}, {{0, 0, 0}, {0, 0, 3e38}, kInfinity, true}, {{0, 0, -3e38}, {0, 0, 3e38}, kInfinity, true},
-      {{0, 0, 0}, {1e-45, 1e-45, 1e-45}, kInfinity, false}, {{0.2, 0.2, 0}, {1e-45, 1e-45, 3e-39}, kInfinity, true},
+      {{0, 0, 0}, {0, 0, 1e-45}, kInfinity, true},
+      {{0, 0, 0}, {0, 0, 3e38}, kInfinity, true},
+      {{0, 0, -3e38}, {0, 0, 3e38}, kInfinity, true},
+      {{0, 0, 0}, {1e-45, 1e-45, 1e-45}, kInfinity, false},
+      {{0.2, 0.2, 0}, {1e-45, 1e-45, 3e-39}, kInfinity, true},
   };
   RayBatch rays = make_rays(static_cast<int>(cases.size()));
   std::vector<uint32_t> want;

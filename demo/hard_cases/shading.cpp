@@ -16,7 +16,9 @@ Finding s1_powers(const Effort& effort) {
   TestRandom random(5);
   Worst share;
   for (int i = 0; i < effort.count(1000000, 100000); ++i) {
-    const double base = i % 3 == 0 ? 1 + 0x1p-23 * random.between(-64, 64) : i % 3 == 1 ? random.uniform(1e-6, 1) : 1 - random.uniform(0, 1e-3);
+    const double base = i % 3 == 0   ? 1 + 0x1p-23 * random.between(-64, 64)
+                        : i % 3 == 1 ? random.uniform(1e-6, 1)
+                                     : 1 - random.uniform(0, 1e-3);
     const double n = std::pow(10.0, random.uniform(-3, 4));
     const long double exact = std::pow(static_cast<long double>(base), static_cast<long double>(n));
     if (exact < 0x1p-1000L) continue;  // underflows

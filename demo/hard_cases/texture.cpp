@@ -37,7 +37,8 @@ void check_levels(const Effort& effort, Tally& samples) {
     }
   }
   TextureProbe far = level_probe(64, 1000);
-  for (const double step : {1e10, 1e30, static_cast<double>(INFINITY), static_cast<double>(NAN)}) far.add(0.3, 0.4, step, 0), far.add(0.3, 0.4, 0, -step);
+  for (const double step : {1e10, 1e30, static_cast<double>(INFINITY), static_cast<double>(NAN)})
+    far.add(0.3, 0.4, step, 0), far.add(0.3, 0.4, 0, -step);
   for (const Isa isa : supported_isas()) {
     const SurfaceBatch& s = far.run(isa);
     for (int i = 0; i < s.count; ++i) samples.check(std::fabs(s.diffuse[0][i] - 6000 * kCode) <= 1e-6);
@@ -71,9 +72,14 @@ void check_horizon(Tally& samples) {
 void check_ramp(const Effort& effort, Worst& share) {
   TestRandom random(4);
   for (const double scale : {1e3, 1e4, 1e5, 1e6, 1e7}) {
-    TextureProbe probe([](SceneData& scene, Material& m) {
-      m.map_diffuse = add_texture(scene, 4096, 1, [](int x, int) { const auto v = static_cast<uint16_t>(16 * x); return Texel{v, v, v, v}; });
-    }, scale);
+    TextureProbe probe(
+        [](SceneData& scene, Material& m) {
+          m.map_diffuse = add_texture(scene, 4096, 1, [](int x, int) {
+            const auto v = static_cast<uint16_t>(16 * x);
+            return Texel{v, v, v, v};
+          });
+        },
+        scale);
     probe.frame().settings.filter = Filter::kBilinear;
     for (int i = 0; i < effort.count(20000, 1000); ++i) {
       const glm::dvec3 p = random_point(random, 2.9) - glm::dvec3(1, 1, 0);

@@ -18,7 +18,8 @@ Finding d1_pairs(const Effort& effort) {
       const glm::dvec3 tilt = random_point(random, 0.3);
       const auto corner = [&](double x, double y, double scale) { return glm::dvec3(x, y, -1 + x * tilt.x + y * tilt.y) * (z * scale); };
       std::vector<SoupTriangle> soup;
-      for (const double scale : {1.0, 1 - 1e-6, 1.0}) soup.push_back(soup_triangle(corner(-3, -1, scale), corner(3, -1, scale), corner(0, 2, scale)));
+      for (const double scale : {1.0, 1 - 1e-6, 1.0})
+        soup.push_back(soup_triangle(corner(-3, -1, scale), corner(3, -1, scale), corner(0, 2, scale)));
       const auto t = make_test_frame(make_test_scene(soup), camera_at({0, 0, 0}, {0, 0, -1}, 1e-4), test_settings(70, 70));
       for (const uint32_t id : rasterize(t->frame).primitive)
         if (id != kNoPrimitive) pixels.check(id == 1, [&] { return "at distance " + short_text(z); });
@@ -54,13 +55,16 @@ Finding d4_edge_on(const Effort& effort) {
   TestRandom random(4);
   Tally pixels;
   for (int n = 0; n < effort.count(2000, 400); ++n) {
-    const glm::dvec3 eye{0.5, 0.25, 3}, u = random_point(random, 0.3) * glm::dvec3(1, 1, 0) - glm::dvec3(0, 0, 1), v = random_point(random) * glm::dvec3(1, 1, 0);
+    const glm::dvec3 eye{0.5, 0.25, 3}, u = random_point(random, 0.3) * glm::dvec3(1, 1, 0) - glm::dvec3(0, 0, 1),
+                                        v = random_point(random) * glm::dvec3(1, 1, 0);
     glm::dvec3 p[3];
     for (glm::dvec3& q : p) {
-      const double w = random.uniform(1, 5), side = random.uniform(-0.3, 0.3), off = n % 4 == 0 ? 0 : random.uniform(-1e-2, 1e-2) / (1 + n % 9);
+      const double w = random.uniform(1, 5), side = random.uniform(-0.3, 0.3),
+                   off = n % 4 == 0 ? 0 : random.uniform(-1e-2, 1e-2) / (1 + n % 9);
       q = eye + u * w + v * side * w + glm::dvec3(v.y, -v.x, 0.0) * off;
     }
-    const auto t = make_test_frame(make_test_scene({soup_triangle(p[0], p[1], p[2])}), camera_at(eye, {0.5, 0.25, 0}), test_settings(300, 300));
+    const auto t = make_test_frame(make_test_scene({soup_triangle(p[0], p[1], p[2])}), camera_at(eye, {0.5, 0.25, 0}),
+                                   test_settings(300, 300));
     float low = 1, high = 0;
     for (const Vertex& vertex : t->scene.vertices) {
       const float z = static_cast<float>(0.01 / (eye.z - static_cast<double>(vertex.position[2])));

@@ -56,8 +56,10 @@ Sweep sweep_leaks_by_scale(const Effort& effort) {
   Sweep s;
   s.title = "Rays through a closed mesh, by its size";
   s.what =
-      "Rays from inside a sphere of 320 triangles at its vertices and edges; each must hit something. A test that rounds each triangle by itself "
-      "leaves gaps between neighbours, and a fixed epsilon makes whole meshes vanish when they are small. Edge functions that are exact "
+      "Rays from inside a sphere of 320 triangles at its vertices and edges; each must hit something. A test that rounds each "
+      "triangle by itself "
+      "leaves gaps between neighbours, and a fixed epsilon makes whole meshes vanish when they are small. Edge functions that "
+      "are exact "
       "opposites for both triangles of an edge leave none, at any size.";
   s.x_name = "radius of the sphere", s.y_name = "rays that get out, %";
   s.x = decades(-6, 6), s.curves = contenders();
@@ -68,7 +70,9 @@ Sweep sweep_leaks_by_scale(const Effort& effort) {
 Sweep sweep_leaks_by_distance(const Effort& effort) {
   Sweep s;
   s.title = "Rays through a closed mesh, by its distance from the origin";
-  s.what = "The same with a sphere of radius 1 whose center moves away from the origin of the world: subtracting large coordinates costs digits.";
+  s.what =
+      "The same with a sphere of radius 1 whose center moves away from the origin of the world: subtracting large coordinates "
+      "costs digits.";
   s.x_name = "distance of the sphere from the origin, radius 1", s.y_name = "rays that get out, %";
   s.x = decades(0, 6, 0.5), s.curves = contenders();
   for (const double distance : s.x) add_leaks(effort, 1, glm::dvec3(glm::vec3(glm::dvec3(0.76, -0.53, 0.38) * distance)), s);

@@ -34,7 +34,9 @@ double plane_depth(const SceneData& scene, const PrimaryRays& rays, uint32_t pri
 
 }  // namespace
 
-Finding y11_critical_angle(const Effort&) { return not_measured("this version has no refraction: d dims a surface, it does not bend light"); }
+Finding y11_critical_angle(const Effort&) {
+  return not_measured("this version has no refraction: d dims a surface, it does not bend light");
+}
 
 // Two mirrors face each other, the eye between them: each bounce may add at most what the one before it added, to the limit of 64.
 // Weight 1 loses nothing, so that the sums are exact in binary; 0.9 follows the geometric series.
@@ -70,8 +72,8 @@ Finding y12_mirror_corridor(const Effort&) {
   return none_wrong(steps, "steps of radiance", 100000, "64 bounces, weights 1 and 0.9; the last sum is " + short_text(last));
 }
 
-// Colors, depths and ids of a soup with a light, shadows and mirrors, by both engines. Ids may differ within 1/256 pixel of an edge or where
-// the two depths differ by less than 2e-6 of them.
+// Colors, depths and ids of a soup with a light, shadows and mirrors, by both engines. Ids may differ within 1/256 pixel of an
+// edge or where the two depths differ by less than 2e-6 of them.
 Finding y13_raster_against_rays(const Effort& effort) {
   constexpr double kDepthTie = 2e-6;
   std::vector<Material> materials(2);
@@ -101,7 +103,9 @@ Finding y13_raster_against_rays(const Effort& effort) {
     const uint32_t a = frames[0].primitive[p], b = frames[1].primitive[p];
     const auto say = [&] { return std::to_string(int(x)) + "," + std::to_string(int(y)); };
     if (a == b) {
-      pixels.check(std::memcmp(&frames[0].depth[p], &frames[1].depth[p], 4) == 0 && std::memcmp(&frames[0].radiance[3 * p], &frames[1].radiance[3 * p], 12) == 0, say);
+      pixels.check(std::memcmp(&frames[0].depth[p], &frames[1].depth[p], 4) == 0 &&
+                       std::memcmp(&frames[0].radiance[3 * p], &frames[1].radiance[3 * p], 12) == 0,
+                   say);
       continue;
     }
     ++ids_differ;
@@ -115,11 +119,12 @@ Finding y13_raster_against_rays(const Effort& effort) {
     }
     pixels.check(allowed, say);
   }
-  return none_wrong(pixels, "pixels", 200000, grouped(ids_differ) + " see another triangle, all within 1/256 pixel of an edge or at a tie of depths");
+  return none_wrong(pixels, "pixels", 200000,
+                    grouped(ids_differ) + " see another triangle, all within 1/256 pixel of an edge or at a tie of depths");
 }
 
-// Glowing panes through one point: the frame's colors against layers sorted and blended in double at each pixel. Pixels at an edge of a pane,
-// and where two layers are nearer than 2e-6, are left out.
+// Glowing panes through one point: the frame's colors against layers sorted and blended in double at each pixel. Pixels at an
+// edge of a pane, and where two layers are nearer than 2e-6, are left out.
 Finding t1_crossing_panes(const Effort& effort) {
   TestRandom random(101);
   Worst codes;
@@ -143,7 +148,8 @@ Finding t1_crossing_panes(const Effort& effort) {
     request.radiance = true;
     Framebuffer out;
     Renderer renderer;
-    if (!renderer.render(Scene(std::make_shared<SceneData>(make_test_scene(soup, materials))), camera, settings, out, request)) codes.add(INFINITY);
+    if (!renderer.render(Scene(std::make_shared<SceneData>(make_test_scene(soup, materials))), camera, settings, out, request))
+      codes.add(INFINITY);
     for (uint32_t p = 0; p < out.radiance.size() / 3; ++p) {
       const uint32_t x = p % 128, y = p / 128;
       std::vector<std::pair<Real, uint32_t>> layers;

@@ -24,7 +24,8 @@ RayBatch rays_inside(const TestFrame& frame, Aim aim, int n, uint32_t seed, doub
   for (int i = 0; i < n; ++i) {
     const uint32_t p = static_cast<uint32_t>(random.below(static_cast<int>(frame.scene.triangles.size())));
     const int v = random.below(3);
-    const glm::dvec3 a = scene_vertex(frame.scene, p, v), b = scene_vertex(frame.scene, p, (v + 1) % 3), c = scene_vertex(frame.scene, p, (v + 2) % 3);
+    const glm::dvec3 a = scene_vertex(frame.scene, p, v), b = scene_vertex(frame.scene, p, (v + 1) % 3),
+                     c = scene_vertex(frame.scene, p, (v + 2) % 3);
     glm::dvec3 target = a;
     if (aim == Aim::kEdge) target = a + (b - a) * (i % 4 < 2 ? 0.5 : random.uniform());
     if (aim == Aim::kInterior) target = (a + b + c) / 3.0;
@@ -40,7 +41,8 @@ void check_hits(TestFrame& t, const Bvh& bvh, const RayBatch& rays, Isa isa, Tal
   std::vector<uint32_t> closest(static_cast<size_t>(rays.count)), any(static_cast<size_t>(rays.count) / 32 + 1);
   trace_closest(t.frame, bvh, rays, closest.data());
   trace_any(t.frame, bvh, rays, any.data());
-  for (size_t r = 0; r < static_cast<size_t>(rays.count); ++r) tally.check(closest[r] != kNoPrimitive && (any[r / 32] >> (r % 32) & 1) != 0);
+  for (size_t r = 0; r < static_cast<size_t>(rays.count); ++r)
+    tally.check(closest[r] != kNoPrimitive && (any[r / 32] >> (r % 32) & 1) != 0);
 }
 
 Finding y1_watertight(const Effort& effort) {
@@ -48,7 +50,8 @@ Finding y1_watertight(const Effort& effort) {
   const Bvh bvh = build_all(*t);
   Tally rays;
   for (const Isa isa : supported_isas())
-    for (const Aim aim : kAims) check_hits(*t, bvh, rays_inside(*t, aim, effort.count(isa, 1000000, 340000), 11, 1, glm::dvec3(0)), isa, rays);
+    for (const Aim aim : kAims)
+      check_hits(*t, bvh, rays_inside(*t, aim, effort.count(isa, 1000000, 340000), 11, 1, glm::dvec3(0)), isa, rays);
   return none_wrong(rays, "rays", 1000000, "a third each at vertices, edges, interiors");
 }
 
@@ -83,7 +86,8 @@ Finding y2_scales(const Effort& effort) {
     auto t = mesh_frame(mesh, scale, glm::dvec3(0));
     const Bvh bvh = build_all(*t);
     for (const Isa isa : supported_isas())
-      for (const Aim aim : kAims) check_hits(*t, bvh, rays_inside(*t, aim, effort.count(isa, 20000, 5000), 12, scale, glm::dvec3(0)), isa, rays);
+      for (const Aim aim : kAims)
+        check_hits(*t, bvh, rays_inside(*t, aim, effort.count(isa, 20000, 5000), 12, scale, glm::dvec3(0)), isa, rays);
   }
   return none_wrong(rays, "rays", 100000, "2^-20 to 2^20, 1e-12 to 1e30");
 }
@@ -111,7 +115,8 @@ Finding y6_flat_boxes(const Effort& effort) {
         p[axis] = at, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
         return p;
       };
-      auto t = make_test_frame(make_test_scene({soup_triangle(point(-1, -1), point(1, -1), point(1, 1)), soup_triangle(point(-1, -1), point(1, 1), point(-1, 1))}),
+      auto t = make_test_frame(make_test_scene({soup_triangle(point(-1, -1), point(1, -1), point(1, 1)),
+                                                soup_triangle(point(-1, -1), point(1, 1), point(-1, 1))}),
                                Camera(), test_settings(16, 16));
       const Bvh bvh = build_all(*t);
       const int count = effort.count(20000, 2000);
@@ -143,14 +148,18 @@ static void check_self_hits(const Effort& effort, double scale, Tally& rays) {
   while (hits.count < effort.count(4000, 1000)) {
     const uint32_t p = static_cast<uint32_t>(random.below(static_cast<int>(soup.size())));
     uint32_t pixel = 0;
-    if (facing(t->scene, t->scene.triangles[p], t->frame.primary.eye) > 0 && pixel_of(t->frame, point_on(t->scene, p, random), &pixel)) add_hit(hits, pixel, 0, p);
+    if (facing(t->scene, t->scene.triangles[p], t->frame.primary.eye) > 0 &&
+        pixel_of(t->frame, point_on(t->scene, p, random), &pixel))
+      add_hit(hits, pixel, 0, p);
   }
   SurfaceBatch surfaces;
   resolve_surfaces(t->frame, hits, surfaces);
   for (int n = 0; n < effort.count(40, 10); ++n) {  // a light that grazes one of the surfaces, and meets the others at all angles
     const int victim = random.below(hits.count);
-    const glm::dvec3 normal{surfaces.geometric_normal[0][victim], surfaces.geometric_normal[1][victim], surfaces.geometric_normal[2][victim]};
-    const glm::dvec3 side = normalize3(cross3(normal, random_point(random)), glm::dvec3(1, 0, 0)), toward = side + normal * std::pow(10.0, -random.uniform(0, 7));
+    const glm::dvec3 normal{surfaces.geometric_normal[0][victim], surfaces.geometric_normal[1][victim],
+                            surfaces.geometric_normal[2][victim]};
+    const glm::dvec3 side = normalize3(cross3(normal, random_point(random)), glm::dvec3(1, 0, 0)),
+                     toward = side + normal * std::pow(10.0, -random.uniform(0, 7));
     Light light;
     light.kind = static_cast<int32_t>(LightKind::kDirectional);
     for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-toward[k]);
@@ -162,13 +171,14 @@ static void check_self_hits(const Effort& effort, double scale, Tally& rays) {
       make_shadow_rays(t->frame, surfaces, 0, batch, of);
       std::vector<uint32_t> closest(static_cast<size_t>(batch.count));
       trace_closest(t->frame, bvh, batch, closest.data());
-      for (size_t i = 0; i < closest.size(); ++i) rays.check(closest[i] != surfaces.primitive[of[i]], [&] { return "self-hit at scale " + short_text(scale); });
+      for (size_t i = 0; i < closest.size(); ++i)
+        rays.check(closest[i] != surfaces.primitive[of[i]], [&] { return "self-hit at scale " + short_text(scale); });
     }
   }
 }
 
-// A floor, over it at 1e-4 and 2e-4 of the scale a small and a huge blocker, lights up to 1000 heights to the side: each ray must end at its
-// blocker. The points on the floor are hits of rays that start beneath the blockers.
+// A floor, over it at 1e-4 and 2e-4 of the scale a small and a huge blocker, lights up to 1000 heights to the side: each ray
+// must end at its blocker. The points on the floor are hits of rays that start beneath the blockers.
 static void check_blockers(const Effort& effort, double s, Tally& rays) {
   const double h = 1e-4 * s;
   auto t = full_frame(make_test_scene({soup_triangle({-s, 0, -s}, {-s, 0, 3 * s}, {3 * s, 0, -s}),

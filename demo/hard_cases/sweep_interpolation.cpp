@@ -72,16 +72,19 @@ Sweep sweep_uv_by_w_ratio(const Effort& effort) {
   Sweep s;
   s.title = "Texture coordinates, by the ratio of view depths across a triangle";
   s.what =
-      "A floor-like triangle from depth 1 to the depth on the axis, uv over a texture of 4096 texels, 2048 pixels wide, against long double on the "
-      "unsnapped triangle. Snapped screen positions move the texture by whole texels wherever it is stretched; edge functions in float "
+      "A floor-like triangle from depth 1 to the depth on the axis, uv over a texture of 4096 texels, 2048 pixels wide, "
+      "against long double on the "
+      "unsnapped triangle. Snapped screen positions move the texture by whole texels wherever it is stretched; edge functions "
+      "in float "
       "cancel.";
   s.x_name = "greatest over least view depth", s.y_name = "largest error, texels of 4096";
   s.x = decades(0, 6, 0.5), s.curves = contenders();
   s.bound_name = "contract: 1/256 texel (row I1)", s.bound.assign(s.x.size(), 1.0 / 256);
   const std::vector<uint32_t> pixels = grid_of_pixels(2048, effort.count(9, 31));
   for (const double ratio : s.x) {
-    const SoupTriangle tri = with_uv(soup_triangle({-0.7, -0.4, -1}, {0.6 * ratio, -0.5 * ratio, -ratio}, {-0.002 * ratio, 0.5 * ratio, -ratio}),
-                                     {0, 0}, {1, 0}, {0.3, 1});
+    const SoupTriangle tri =
+        with_uv(soup_triangle({-0.7, -0.4, -1}, {0.6 * ratio, -0.5 * ratio, -ratio}, {-0.002 * ratio, 0.5 * ratio, -ratio}),
+                {0, 0}, {1, 0}, {0.3, 1});
     auto t = full_frame(make_test_scene({tri}), looking_down_z(), 2048, 2048);
     add_uv_errors(*t, pixels, s);
   }
@@ -93,8 +96,10 @@ Sweep sweep_uv_by_sliver(const Effort& effort) {
   Sweep s;
   s.title = "Texture coordinates, by the shape of a triangle";
   s.what =
-      "Triangles 1500 pixels long and ever thinner, down to a seventh of a pixel, at several slopes, one end twice as far as the other. uv runs over "
-      "4096 texels along the triangle and across it: across a sliver, positions snapped to 1/256 pixel are wrong by a large share of its width. Where "
+      "Triangles 1500 pixels long and ever thinner, down to a seventh of a pixel, at several slopes, one end twice as far as "
+      "the other. uv runs over "
+      "4096 texels along the triangle and across it: across a sliver, positions snapped to 1/256 pixel are wrong by a large "
+      "share of its width. Where "
       "4096 texels share a pixel or two, weights in float pass 1/256 texel, too.";
   s.x_name = "length over width", s.y_name = "largest error, texels of 4096";
   s.x = decades(0, 4, 0.5), s.curves = contenders();
@@ -116,7 +121,8 @@ Sweep sweep_uv_by_sliver(const Effort& effort) {
       for (int i = 0; i < effort.count(4000, 1000); ++i) {
         const double u = random.uniform(), v = random.uniform() * (1 - u);
         const glm::dvec2 p = a + (b - a) * u + (c - a) * v;
-        if (p.x >= 0 && p.y >= 0 && p.x < 2048 && p.y < 2048) pixels.push_back(pack_pixel(static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y)));
+        if (p.x >= 0 && p.y >= 0 && p.x < 2048 && p.y < 2048)
+          pixels.push_back(pack_pixel(static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y)));
       }
       auto t = full_frame(make_test_scene({tri}), camera, 2048, 2048);
       add_uv_errors(*t, pixels, slopes);

@@ -12,10 +12,14 @@ namespace {
 constexpr double kEpsilons[] = {1e-3, 1e-5};
 
 std::vector<Curve> contenders() {
-  return {{"spanray: by the error bound of the position", true, {}}, {"epsilon 1e-3 along the normal", false, {}}, {"epsilon 1e-5 along the normal", false, {}}};
+  return {{"spanray: by the error bound of the position", true, {}},
+          {"epsilon 1e-3 along the normal", false, {}},
+          {"epsilon 1e-5 along the normal", false, {}}};
 }
 
-glm::dvec3 normal_at(const SurfaceBatch& s, uint32_t i) { return {s.geometric_normal[0][i], s.geometric_normal[1][i], s.geometric_normal[2][i]}; }
+glm::dvec3 normal_at(const SurfaceBatch& s, uint32_t i) {
+  return {s.geometric_normal[0][i], s.geometric_normal[1][i], s.geometric_normal[2][i]};
+}
 
 void light_from(SceneData& scene, const glm::dvec3& toward) {
   const glm::dvec3 unit = normalize3(toward, glm::dvec3(0, 1, 0));
@@ -55,11 +59,12 @@ void count_shadow_rays(TestFrame& t, const Bvh& bvh, const SurfaceBatch& surface
 
 void add_shares(const Counts& counts, Sweep& sweep) {
   for (size_t k = 0; k < 3; ++k)
-    sweep.curves[k].y.push_back(counts.checked == 0 ? NAN : 100.0 * static_cast<double>(counts.wrong[k]) / static_cast<double>(counts.checked));
+    sweep.curves[k].y.push_back(
+        counts.checked == 0 ? NAN : 100.0 * static_cast<double>(counts.wrong[k]) / static_cast<double>(counts.checked));
 }
 
-// Shadow rays from a sphere of 1280 triangles; cosine: of the angle between the rays and the normal of the triangle that they leave, 0 for lights
-// in all directions. Wrong: the ray hits the triangle that it left.
+// Shadow rays from a sphere of 1280 triangles; cosine: of the angle between the rays and the normal of the triangle that they
+// leave, 0 for lights in all directions. Wrong: the ray hits the triangle that it left.
 void add_self_hits(const Effort& effort, double scale, const glm::dvec3& center, double cosine, Sweep& sweep) {
   std::vector<SoupTriangle> soup;
   add_mesh(soup, make_sphere(3), scale, center);
@@ -78,7 +83,8 @@ void add_self_hits(const Effort& effort, double scale, const glm::dvec3& center,
     while (facing(t->scene, t->scene.triangles[p], eye) <= 0);
     for (int i = 0; i < 100; ++i) {
       if (cosine == 0) p = static_cast<uint32_t>(random.below(static_cast<int>(soup.size())));
-      if (facing(t->scene, t->scene.triangles[p], eye) > 0 && pixel_of(t->frame, point_on(t->scene, p, random), &pixel)) add_hit(hits, pixel, 0, p);
+      if (facing(t->scene, t->scene.triangles[p], eye) > 0 && pixel_of(t->frame, point_on(t->scene, p, random), &pixel))
+        add_hit(hits, pixel, 0, p);
     }
     if (hits.count == 0) continue;
     SurfaceBatch surfaces;
@@ -96,7 +102,8 @@ Sweep sweep_self_hits_by_scale(const Effort& effort) {
   Sweep s;
   s.title = "Shadow rays that hit the triangle which they leave, by the size of the scene";
   s.what =
-      "Positions of a hit are rounded to float, so half of them lie behind their surface. An epsilon that is right for one scene is smaller than "
+      "Positions of a hit are rounded to float, so half of them lie behind their surface. An epsilon that is right for one "
+      "scene is smaller than "
       "that rounding in a larger one: black speckles. The error bound grows with the coordinates.";
   s.x_name = "radius of a sphere of 1,280 triangles", s.y_name = "self-hits, % of shadow rays";
   s.x = decades(-6, 6), s.curves = contenders();
@@ -129,7 +136,8 @@ Sweep sweep_blockers_by_scale(const Effort& effort) {
   Sweep s;
   s.title = "Shadow rays that start beyond a blocker close by, by the size of the scene";
   s.what =
-      "A ceiling 1e-4 of the scene's size above a floor shadows all of it. An epsilon larger than that gap starts its rays above the ceiling: light "
+      "A ceiling 1e-4 of the scene's size above a floor shadows all of it. An epsilon larger than that gap starts its rays "
+      "above the ceiling: light "
       "leaks. No one epsilon is right here and in the plot of self-hits at all sizes.";
   s.x_name = "size of the scene", s.y_name = "missed blockers, % of shadow rays";
   s.x = decades(-6, 6), s.curves = contenders();
