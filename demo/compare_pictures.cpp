@@ -96,7 +96,7 @@ void print_past_white(const ReadPicture& a, const ReadPicture& b, const Metrics&
   if (in_a + in_b == 0) return;
   std::printf("past_white    %llu pixels of A, %llu of B (rmse_linear and relmse count how far; all others see white)\n",
               static_cast<unsigned long long>(in_a), static_cast<unsigned long long>(in_b));
-  if (m.flip == 0 && m.rmse_linear > 0) message("flip is 0 only because the pictures differ nowhere but past white: rmse_linear tells them apart");
+  if (m.flip == 0 && m.rmse_linear > 0) message("flip is 0, and yet the pictures differ: past white, below black, or too little to be seen; rmse_linear tells them apart");
 }
 
 Result<void> check_files(const CompareOptions& options) {

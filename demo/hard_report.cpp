@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 Json number_json(double v) { return std::isfinite(v) ? Json(v) : Json(std::isnan(v) ? "nan" : "inf"); }
 
 Result<void> write_files(const HardReport& report, const std::string& folder, const std::string& json_path) {
-  const std::string json = hard_json(report).dump(2) + "\n";
+  const std::string json = hard_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (!json_path.empty())
     if (auto written = write_file_atomic(json_path, json); !written) return written;
   if (folder.empty()) return {};
@@ -153,7 +153,7 @@ int run_hard_report(const HardReportOptions& options, const std::string& folder)
   measure(options, !folder.empty() || !options.json.empty(), to_stdout, report);
   if (auto written = write_files(report, folder, to_stdout ? "" : options.json); !written) return fail(written.error());
   if (to_stdout) {
-    std::printf("%s\n", hard_json(report).dump(2).c_str());
+    std::printf("%s\n", hard_json(report).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   } else {
     std::printf("%d pass, %d fail, %d not measured; %.0f s\n", report.count(Verdict::kPass), report.count(Verdict::kFail),
                 report.count(Verdict::kNotMeasured), report.seconds);

@@ -85,7 +85,8 @@ std::string PathCommand::words() const {
 PathMeaning PathCommand::meaning(const Job& job) const {
   const Settings& s = job.settings;
   const bool opaque = s.transparency == Transparency::kNone;
-  return {{"scene_hash", hash_text(job.scene.hash())},
+  return {{"version", SPANRAY_VERSION},
+          {"scene_hash", hash_text(job.scene.hash())},
           {"camera", camera_text(job.camera)},
           {"time", number_text(s.time)},
           {"filter", enum_text(s.filter)},

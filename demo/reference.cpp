@@ -25,7 +25,10 @@ struct ReferenceCommand {
 void check_usage(const ReferenceCommand& command, const std::string& extension) {
   if (extension != ".png" && extension != ".pfm")
     throw UsageError("reference: --out writes PNG or PFM, so its file must end in .png or .pfm: " + command.out);
-  const auto place = [](const std::string& file) { return std::filesystem::weakly_canonical(std::filesystem::absolute(file)); };
+  const auto place = [](const std::string& file) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, none), none);
+  };
   if (!command.paths.accumulate.empty() && place(command.paths.accumulate) == place(command.out))
     throw UsageError("reference: --out and --accumulate are the same file: " + command.out);
 }

@@ -83,7 +83,7 @@ std::string curve(const hard::Sweep& s, size_t index, const Axis& x, const Axis&
   std::string path, marks;
   bool down = false;
   for (size_t i = 0; i < s.x.size(); ++i) {
-    if (std::isnan(c.y[i])) {
+    if (!std::isfinite(c.y[i])) {
       down = false;
       continue;
     }

@@ -103,8 +103,11 @@ Result<Declared> declare(const Job& job, const std::vector<TunedView>& views, co
     if (!times) return times.error();
     for (size_t i = 0; i < contenders.size(); ++i) contenders[i].cost.ms = times.value()[i].median_ms;
     const int chosen = choose_again(contenders, goal);
-    const Tried& best = contenders[static_cast<size_t>(std::max(chosen, 0))];
-    if (chosen >= 0 || first == 0) out.tuned.settings = best.settings, out.tuned.cost = best.cost, out.tuned.kept = chosen >= 0;
+    const auto sooner = [](const Tried& a, const Tried& b) { return a.cost.ms < b.cost.ms; };
+    const Tried& best = chosen >= 0 ? contenders[static_cast<size_t>(chosen)]
+                                    : *std::min_element(contenders.begin(), contenders.end(), sooner);
+    if (chosen >= 0 || first == 0 || best.cost.ms < out.tuned.cost.ms)
+      out.tuned.settings = best.settings, out.tuned.cost = best.cost, out.tuned.kept = chosen >= 0;
     out.evidence += "# measured again, " + std::to_string(frames) + " frames of each and view in turns" +
                     (chosen >= 0 ? ":\n" : ", and none keeps the budget:\n");
     for (size_t i = 0; i < settings.size(); ++i) {
@@ -115,7 +118,7 @@ Result<Declared> declare(const Job& job, const std::vector<TunedView>& views, co
       out.evidence +=
           "#   " + number4(times.value()[i].median_ms) + " ms (95th percentile " + number4(times.value()[i].p95_ms) + ")" +
           (is_plain ? "" : ", " + std::string(metric.name) + " " + number4(as_error(metric, contenders[i].cost.error))) + ": " +
-          (!is_plain && what == "with " ? "the first of these" : what) + "\n";
+          (!is_plain && what == "with " ? words_text(best.settings) : what) + "\n";
     }
   }
   return out;

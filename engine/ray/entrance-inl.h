@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 // With s1, s2 the largest coordinates of the edges at v0 and r = Shaft::reach, n . (x - v0) is off by at most 6e-6 s1 s2 r in float and
 // 4e-15 s1 s2 r in double. The margins are larger, since hit_triangle() rounds, too: by at most 1e-14 s r^2, s the larger edge, which is
 // little beside the margins where no edge is short.
-inline constexpr float kSideError = 2e-5f, kShortEdge = 1e-6f;
+inline constexpr float kSideError = 2e-5f, kShortEdge = 1e-4f;
 inline constexpr double kSideError64 = 0x1p-32;
 
 // Of the triangles of a leaf: those that segments may cross, and those whose plane passes so near to the origins that each must be asked.

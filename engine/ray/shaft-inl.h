@@ -31,7 +31,7 @@ struct ShaftSide {
 };
 
 struct Shaft {
-  alignas(64) float start[3][kShaftRays], end[3][kShaftRays];  // whole vectors; lanes past the last ray repeat it
+  alignas(64) float start[3][kShaftRays], end[3][kShaftRays];  // whole vectors; lanes past the last ray repeat one of them
   int vectors = 0;
   ShaftBox starts, ends, hull;
   ShaftSide side[kMostSides];

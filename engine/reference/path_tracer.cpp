@@ -10,12 +10,6 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr uint32_t kSureBounces = 3;  // before Russian roulette begins
 
 // Settings that choose approximations of the fast renderer do not count; screen-door patterns are layers.
-Settings for_paths(Settings s) {
-  s.shading = Shading::kPhong, s.shadows = Shadows::kRay, s.reflections = Reflections::kRay, s.samples = 1;
-  if (s.transparency != Transparency::kNone) s.transparency = Transparency::kAlpha;
-  return s;
-}
-
 // Weight of a direction that one technique found with density a and another might have found with density b.
 double power_heuristic(double a, double b) {
   if (!(a > 0)) return 0;
@@ -32,6 +26,12 @@ Ray ray_along(const glm::dvec3& origin, const glm::dvec3& direction) {
 }
 
 }  // namespace
+
+Settings for_paths(Settings s) {
+  s.shading = Shading::kPhong, s.shadows = Shadows::kRay, s.reflections = Reflections::kRay, s.samples = 1;
+  if (s.transparency != Transparency::kNone) s.transparency = Transparency::kAlpha;
+  return s;
+}
 
 PathTracer::PathTracer(const SceneData& scene, const Camera& camera, const Settings& settings, const PathOptions& options)
     : options_(options),

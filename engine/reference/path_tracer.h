@@ -8,6 +8,9 @@
 
 namespace spanray::reference {
 
+// What paths make of a scene's settings: interpolated normals, all layers blended, one sample.
+Settings for_paths(Settings settings);
+
 // Source:   Kajiya 1986, "The Rendering Equation"; next-event estimation joined with the reflected path by the power heuristic:
 //           Veach, Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering".
 class PathTracer {

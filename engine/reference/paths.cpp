@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/fp_env.h"
 #include "core/parallel.h"
 #include "reference/path_tracer.h"
 #include "scene/pose.h"
@@ -58,6 +59,7 @@ double PathSums::noise() const {
 Result<void> trace_paths(const Scene& scene, const Camera& camera, const Settings& settings, const PathOptions& options,
                          uint32_t paths, PathSums& sums, const PathControl& control) {
   if (auto checked = check(scene, settings, options, paths, sums); !checked) return checked;
+  const FpEnvGuard guard;
   const Scene standing = scene_at(scene, settings.time);
   const PathTracer tracer(standing.data(), camera, settings, options);
   const size_t width = static_cast<size_t>(settings.width), pixels = width * static_cast<size_t>(settings.height);
@@ -111,7 +113,7 @@ std::vector<std::string> path_remarks(const Scene& scene, const Settings& settin
     if (reference::most_reflected(m.reflectance, to_dvec(m.diffuse), to_dvec(m.specular), to_dvec(m.mirror), m.shininess) > 1)
       bright += (bright.empty() ? "" : ", ") + data.material_names[i];
     mirror |= m.mirror[0] > 0 || m.mirror[1] > 0 || m.mirror[2] > 0;
-    const reference::Role role = reference::role_of(m, settings);
+    const reference::Role role = reference::role_of(m, reference::for_paths(settings));
     layer |= role == reference::Role::kBlended || role == reference::Role::kScreenDoor;
   }
   if (attenuated) remarks.emplace_back("lights that do not fall off with the square of the distance are taken as they are");

@@ -33,7 +33,6 @@ HWY_INLINE F8 operator-(F8 a) { return {hn8::Xor(a.v, hn8::Set(D8(), -0.0f))}; }
 HWY_INLINE F8 abs_(F8 a) { return {hn8::Abs(a.v)}; }
 HWY_INLINE Mask8 operator<(F8 a, F8 b) { return {hn8::Lt(a.v, b.v)}; }
 HWY_INLINE Mask8 operator<=(F8 a, F8 b) { return {hn8::Le(a.v, b.v)}; }
-HWY_INLINE Mask8 operator>=(F8 a, F8 b) { return {hn8::Ge(a.v, b.v)}; }
 HWY_INLINE Mask8 operator>(F8 a, F8 b) { return {hn8::Gt(a.v, b.v)}; }
 HWY_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return {hn8::And(a.m, b.m)}; }
 HWY_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return {hn8::Or(a.m, b.m)}; }
