@@ -6,6 +6,7 @@
 #include "ray/bvh.h"
 #include "ray_cases.h"
 #include "shade/light.h"
+#include "support/awkward_rays.h"
 #include "support/surface_scenes.h"
 
 namespace spanray::hard {
@@ -43,6 +44,18 @@ void check_hits(TestFrame& t, const Bvh& bvh, const RayBatch& rays, Isa isa, Tal
   trace_any(t.frame, bvh, rays, any.data());
   for (size_t r = 0; r < static_cast<size_t>(rays.count); ++r)
     tally.check(closest[r] != kNoPrimitive && (any[r / 32] >> (r % 32) & 1) != 0);
+}
+
+glm::dvec3 normal_at(const SurfaceBatch& s, uint32_t i) {
+  return {s.geometric_normal[0][i], s.geometric_normal[1][i], s.geometric_normal[2][i]};
+}
+
+void light_from(SceneData& scene, const glm::dvec3& toward) {
+  const glm::dvec3 unit = normalize3(toward, glm::dvec3(0, 1, 0));
+  Light light;
+  light.kind = static_cast<int32_t>(LightKind::kDirectional);
+  for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-unit[k]);
+  scene.lights = {light};
 }
 
 Finding y1_watertight(const Effort& effort) {
@@ -134,6 +147,24 @@ Finding y6_flat_boxes(const Effort& effort) {
   return none_wrong(hits, "rays", 20000);
 }
 
+// The renderer's shadow rays from surfaces to its first light, on every instruction set: answer(hit, own) of each, the primitive that it meets
+// and the one that it leaves. Returns how many.
+template <class Answer>
+static uint64_t for_shadow_rays(TestFrame& t, const Bvh& bvh, const SurfaceBatch& surfaces, const Answer& answer) {
+  uint64_t count = 0;
+  for (const Isa isa : supported_isas()) {
+    t.frame.isa = isa;
+    RayBatch batch;
+    AlignedBuffer<uint32_t> of;
+    make_shadow_rays(t.frame, surfaces, 0, batch, of);
+    std::vector<uint32_t> closest(static_cast<size_t>(batch.count));
+    trace_closest(t.frame, bvh, batch, closest.data());
+    for (size_t i = 0; i < closest.size(); ++i) answer(closest[i], surfaces.primitive[of[i]]);
+    count += closest.size();
+  }
+  return count;
+}
+
 // Shadow rays of the renderer itself from points of a sphere, lights down to 1e-7 above the horizon of the triangle that they leave.
 static void check_self_hits(const Effort& effort, double scale, Tally& rays) {
   Camera camera;
@@ -156,24 +187,12 @@ static void check_self_hits(const Effort& effort, double scale, Tally& rays) {
   resolve_surfaces(t->frame, hits, surfaces);
   for (int n = 0; n < effort.count(40, 10); ++n) {  // a light that grazes one of the surfaces, and meets the others at all angles
     const int victim = random.below(hits.count);
-    const glm::dvec3 normal{surfaces.geometric_normal[0][victim], surfaces.geometric_normal[1][victim],
-                            surfaces.geometric_normal[2][victim]};
-    const glm::dvec3 side = normalize3(cross3(normal, random_point(random)), glm::dvec3(1, 0, 0)),
-                     toward = side + normal * std::pow(10.0, -random.uniform(0, 7));
-    Light light;
-    light.kind = static_cast<int32_t>(LightKind::kDirectional);
-    for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-toward[k]);
-    t->scene.lights = {light};
-    for (const Isa isa : supported_isas()) {
-      t->frame.isa = isa;
-      RayBatch batch;
-      AlignedBuffer<uint32_t> of;
-      make_shadow_rays(t->frame, surfaces, 0, batch, of);
-      std::vector<uint32_t> closest(static_cast<size_t>(batch.count));
-      trace_closest(t->frame, bvh, batch, closest.data());
-      for (size_t i = 0; i < closest.size(); ++i)
-        rays.check(closest[i] != surfaces.primitive[of[i]], [&] { return "self-hit at scale " + short_text(scale); });
-    }
+    const glm::dvec3 normal = normal_at(surfaces, static_cast<uint32_t>(victim));
+    const glm::dvec3 side = normalize3(cross3(normal, random_point(random)), glm::dvec3(1, 0, 0));
+    light_from(t->scene, side + normal * std::pow(10.0, -random.uniform(0, 7)));
+    for_shadow_rays(*t, bvh, surfaces, [&](uint32_t hit, uint32_t own) {
+      rays.check(hit != own, [&] { return "self-hit at scale " + short_text(scale); });
+    });
   }
 }
 
@@ -190,11 +209,7 @@ static void check_blockers(const Effort& effort, double s, Tally& rays) {
   for (int n = 0; n < effort.count(100, 20); ++n) {
     const bool small = n % 2 == 0;
     const double tilt = small ? 10 : 1000;  // by height: stays under the small one, goes past it under the huge one
-    Light light;
-    light.kind = static_cast<int32_t>(LightKind::kDirectional);
-    const glm::dvec3 toward = normalize3({random.uniform(0, tilt), 1, small ? random.uniform(-tilt, tilt) : 0}, glm::dvec3(0, 1, 0));
-    for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-toward[k]);
-    t->scene.lights = {light};
+    light_from(t->scene, {random.uniform(0, tilt), 1, small ? random.uniform(-tilt, tilt) : 0});
     RayBatch down;
     HitBatch hits;
     hits.rays = &down;
@@ -204,16 +219,10 @@ static void check_blockers(const Effort& effort, double s, Tally& rays) {
     }
     SurfaceBatch surfaces;
     resolve_surfaces(t->frame, hits, surfaces);
-    for (const Isa isa : supported_isas()) {
-      t->frame.isa = isa;
-      RayBatch batch;
-      AlignedBuffer<uint32_t> of;
-      make_shadow_rays(t->frame, surfaces, 0, batch, of);
-      std::vector<uint32_t> closest(static_cast<size_t>(batch.count));
-      trace_closest(t->frame, bvh, batch, closest.data());
-      rays.check(batch.count == 100);
-      for (const uint32_t id : closest) rays.check(id == (small ? 1u : 2u), [&] { return "missed blocker at scale " + short_text(s); });
-    }
+    const uint64_t answers = for_shadow_rays(*t, bvh, surfaces, [&](uint32_t hit, uint32_t) {
+      rays.check(hit == (small ? 1u : 2u), [&] { return "missed blocker at scale " + short_text(s); });
+    });
+    rays.check(answers == 100 * supported_isas().size());
   }
 }
 
@@ -234,20 +243,13 @@ Finding y10_far_sphere(const Effort& effort) {
   const Bvh bvh = build_all(*t);
   const int count = effort.count(15000, 1500);
   TestRandom random(26);
-  RayBatch rays = make_rays(count);
+  const RayBatch rays = rays_from_far(random, count);
   HitBatch hits;
   hits.rays = &rays;
-  std::vector<long double> best(static_cast<size_t>(count), kInfinity);
+  std::vector<long double> best(static_cast<size_t>(count));  // infinity where nothing can be said
   for (int i = 0; i < count; ++i) {
-    const glm::dvec3 origin = normalize3(random_point(random, 1), glm::dvec3(1, 0, 0)) * 1e5;
-    set_ray(rays, i, origin, normalize3(random_point(random, 0.6) - origin, glm::dvec3(1, 0, 0)));
-    long double margin = 1, &nearest = best[static_cast<size_t>(i)];
-    for (uint32_t p = 0; p < t->scene.triangles.size(); ++p) {
-      const RayOracleHit h = oracle_hit(t->scene, p, ray_origin(rays, i), ray_direction(rays, i));
-      margin = std::min(margin, h.margin);
-      if (h.hit) nearest = std::min(nearest, h.t);
-    }
-    if (margin < 1e-19L) nearest = kInfinity;  // within 1e-9 of an edge, seen from 1e5 away
+    const Judged nearest = judge(t->scene, rays, i);
+    best[static_cast<size_t>(i)] = nearest.margin < 1e-19L ? kInfinity : nearest.t;  // within 1e-9 of an edge, seen from 1e5 away
     add_hit(hits, 0, static_cast<uint32_t>(i), 0);
   }
   Worst ulps;

@@ -17,18 +17,6 @@ std::vector<Curve> contenders() {
           {"epsilon 1e-5 along the normal", false, {}}};
 }
 
-glm::dvec3 normal_at(const SurfaceBatch& s, uint32_t i) {
-  return {s.geometric_normal[0][i], s.geometric_normal[1][i], s.geometric_normal[2][i]};
-}
-
-void light_from(SceneData& scene, const glm::dvec3& toward) {
-  const glm::dvec3 unit = normalize3(toward, glm::dvec3(0, 1, 0));
-  Light light;
-  light.kind = static_cast<int32_t>(LightKind::kDirectional);
-  for (int k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(-unit[k]);
-  scene.lights = {light};
-}
-
 // The same rays with their origins at position + epsilon * normal, rounded to float.
 RayBatch moved_by(const RayBatch& rays, const AlignedBuffer<uint32_t>& of, const SurfaceBatch& s, double epsilon) {
   RayBatch moved = make_rays(rays.count);

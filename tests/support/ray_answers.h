@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "ray/bvh.h"
-#include "support/bvh_oracle.h"
+#include "support/awkward_rays.h"
 
 namespace spanray {
-
-inline std::unique_ptr<TestFrame> frame_of(const std::vector<SoupTriangle>& soup, std::vector<Material> materials = {}) {
-  return make_test_frame(make_test_scene(soup, std::move(materials)), Camera(), test_settings(16, 16));
-}
 
 struct Answers {
   std::vector<uint32_t> closest;
@@ -70,16 +66,6 @@ inline void expect_equal(const Answers& got, const Answers& want, const RayBatch
                     << " direction " << d.x << " " << d.y << " " << d.z;
       return;
     }
-}
-
-inline RayBatch random_rays(TestRandom& random, int n) {
-  RayBatch rays = make_rays(n);
-  for (int i = 0; i < n; ++i) {
-    const float t_max = i % 3 == 0 ? static_cast<float>(random.uniform(0, 3)) : kInfinity;
-    const glm::dvec3 origin = random_point(random, 1.5);
-    set_ray(rays, i, origin, random_point(random, 1) - (i % 2 ? origin : glm::dvec3(0)), t_max);
-  }
-  return rays;
 }
 
 }  // namespace spanray
