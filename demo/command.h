@@ -4,9 +4,13 @@
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "speak.h"
+
+// Its header costs each file that includes it seconds to compile: those that add options do, no others.
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace spanray::demo {
 

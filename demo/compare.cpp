@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "command.h"
 #include "compare_pictures.h"
 #include "frame/ladder.h"

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include <CLI/CLI.hpp>
+
 #include "core/counted.h"
 #include "core/number_text.h"
 #include "scene/scene_file.h"

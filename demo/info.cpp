@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "command.h"
 #include "core/hash.h"
 #include "frame_options.h"

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include <CLI/CLI.hpp>
+
 #include "core/atomic_file.h"
 #include "core/hash.h"
 #include "core/number_text.h"

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "command.h"
 #include "core/atomic_file.h"
 #include "frame_options.h"

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "command.h"
 #include "core/atomic_file.h"
 #include "core/read_file.h"

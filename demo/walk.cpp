@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "camera_path.h"
 #include "command.h"
 #include "frame_options.h"

@@ -5,6 +5,8 @@
 #include <memory>
 #include <span>
 
+#include <CLI/CLI.hpp>
+
 #include "command.h"
 #include "core/hash.h"
 #include "frame_options.h"

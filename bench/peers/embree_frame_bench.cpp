@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <thread>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "agreement.h"

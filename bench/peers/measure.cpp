@@ -5,6 +5,8 @@
 #include <exception>
 #include <fstream>
 
+#include <CLI/CLI.hpp>
+
 namespace spanray::peers {
 namespace {
 
