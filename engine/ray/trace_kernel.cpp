@@ -1,4 +1,5 @@
-// Batches of rays against the tree: coherent neighbours as packets (ray/packet-inl.h), others one by one (ray/traverse-inl.h).
+// Batches of rays against the tree: coherent neighbours as packets (ray/packet-inl.h), others as streams (any hit, ray/stream-inl.h) or
+// one by one (ray/traverse-inl.h).
 // Input:    any rays; those that prepare_ray() refuses miss.
 // Contract: what is found is what hit_triangle() over all triangles finds, with ties in t to the lowest primitive, whatever the tree,
 //           the order of the batch and the instruction set.
@@ -18,6 +19,7 @@
 #include "hwy/foreach_target.h"
 #include "ray/packet-inl.h"
 #include "ray/entrance-inl.h"
+#include "ray/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -42,7 +44,7 @@ HWY_INLINE int same_cell(const RayBatch& rays, int first) {
 void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
   std::fill_n(out, rays.count, kNoPrimitive);
   if (data.nodes.empty()) return;
-  const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
+  const Batch batch(frame, rays, frame.settings.culling == Culling::kBack);
   ClosestPacket packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);
@@ -56,8 +58,9 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
 void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
   std::fill_n(out, (rays.count + 31) / 32, 0u);
   if (data.nodes.empty()) return;
-  const Batch batch{frame, rays, false};
+  const Batch batch(frame, rays, false);
   AnyPacket packet(data, batch);
+  AnyStream stream(data, batch);
   Shaft shaft;
   Entrance entrance;
   for (int first = 0; first < rays.count;) {
@@ -69,21 +72,23 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
       packet.start(first);
       if (packet.p.valid == 0) continue;
       if (!coherent(packet.p)) {
-        packet.alone({0, packet.p.valid});
-      } else {
-        if (narrow) packet.test(entrance.few, (1u << entrance.triangles) - 1, packet.p.valid);
-        const int nodes = narrow ? entrance.nodes() : 1;
-        if (nodes != 0 && packet.alive != 0) go_together(packet, narrow ? entrance.node : data.nodes.data(), nodes);
+        if (!stream.has_room()) stream.trace(out);
+        stream.add(packet);
+        continue;
       }
+      if (narrow) packet.test(entrance.few, (1u << entrance.triangles) - 1, packet.p.valid);
+      const int nodes = narrow ? entrance.nodes() : 1;
+      if (nodes != 0 && packet.alive != 0) go_together(packet, narrow ? entrance.node : data.nodes.data(), nodes);
       out[first / 32] |= (packet.p.valid & ~packet.alive) << (first % 32);
     }
   }
+  stream.trace(out);
 }
 
 // Hits of one ray stay together, in no order: rays go alone.
 void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {
   if (data.nodes.empty()) return;
-  const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
+  const Batch batch(frame, rays, frame.settings.culling == Culling::kBack);
   PacketTask packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);

@@ -79,19 +79,22 @@ template <bool kSure> HWY_INLINE Candidates candidates(const TriangleBlock& bloc
 
 // What is still to be visited: two arrays, since a pair that is written by halves and read whole would stall. A push may write kBvhWidth
 // entries past the last that counts.
+inline constexpr uint32_t kNothing = ~0u;
 struct Stack {
   float near[kBvhStackSize + kBvhWidth];
   uint32_t child[kBvhStackSize + kBvhWidth];
   int top = 0;
 
-  // All children that the ray meets, in no order and without distances.
-  HWY_INLINE void push_any(const BvhNode& node, const LaneRay& ray, float limit) {
+  // The children of a node that the ray meets, in no order and without distances: one is returned, the others wait. kNothing if there are none.
+  HWY_INLINE uint32_t push_any(const BvhNode& node, const LaneRay& ray, float limit) {
+    const int bottom = top;
     for (int s = 0; s < kBvhWidth; s += kLanes8)
       top += store_chosen(node.child + s, box_children(node, s, ray, limit).meets, child + top);
+    return top > bottom ? child[--top] : kNothing;
   }
 
-  // The same so that the nearest is popped first.
-  HWY_INLINE void push_sorted(const BvhNode& node, const LaneRay& ray, float limit) {
+  // The same, but the nearest is returned, and the others are popped nearest first.
+  HWY_INLINE uint32_t push_sorted(const BvhNode& node, const LaneRay& ray, float limit) {
     alignas(32) float entry[kBvhWidth];
     uint32_t bits = 0;
     for (int s = 0; s < kBvhWidth; s += kLanes8) {
@@ -99,13 +102,22 @@ struct Stack {
       box.near.store(entry + s);
       bits |= to_bits(box.meets) << s;
     }
+    if (bits == 0) return kNothing;
+    int nearest = std::countr_zero(bits);
+    bits &= bits - 1;
+    if (bits == 0) return node.child[nearest];
     const int bottom = top;
-    for (; bits != 0; bits &= bits - 1) {
-      const int c = std::countr_zero(bits);
+    do {
+      int c = std::countr_zero(bits);
+      bits &= bits - 1;
+      const bool swap = entry[c] < entry[nearest];
+      const int far = swap ? nearest : c;
+      nearest = swap ? c : nearest;
       int at = top++;
-      for (; at > bottom && near[at - 1] < entry[c]; --at) near[at] = near[at - 1], child[at] = child[at - 1];
-      near[at] = entry[c], child[at] = node.child[c];
-    }
+      for (; at > bottom && near[at - 1] < entry[far]; --at) near[at] = near[at - 1], child[at] = child[at - 1];
+      near[at] = entry[far], child[at] = node.child[far];
+    } while (bits != 0);
+    return node.child[nearest];
   }
 };
 
@@ -136,19 +148,21 @@ HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay&
 template <class Visitor>
 HWY_INLINE void traverse(const Bvh::Data& data, uint32_t start, float near, const LaneRay& ray, Visitor& visitor) {
   Stack stack;
-  stack.near[0] = near, stack.child[0] = start;
-  stack.top = 1;
-  while (stack.top > 0) {
-    --stack.top;
-    if (!Visitor::kAny && stack.near[stack.top] > visitor.limit) continue;
-    const uint32_t child = stack.child[stack.top];
-    if (child & kLeafBit) {
-      if (visit_leaf(data, child, ray, visitor)) return;
-    } else if constexpr (Visitor::kAny) {
-      stack.push_any(data.nodes[child], ray, visitor.limit);
-    } else {
-      stack.push_sorted(data.nodes[child], ray, visitor.limit);
+  uint32_t child = start;
+  if (!Visitor::kAny && near > visitor.limit) return;
+  for (;;) {
+    if ((child & kLeafBit) == 0) {
+      const BvhNode& node = data.nodes[child];
+      child = Visitor::kAny ? stack.push_any(node, ray, visitor.limit) : stack.push_sorted(node, ray, visitor.limit);
+      if (child != kNothing) continue;
+    } else if (visit_leaf(data, child, ray, visitor)) {
+      return;
     }
+    do {
+      if (stack.top == 0) return;
+      --stack.top;
+    } while (!Visitor::kAny && stack.near[stack.top] > visitor.limit);
+    child = stack.child[stack.top];
   }
 }
 
