@@ -121,7 +121,7 @@ struct AnyPacket : PacketTask {
   HWY_INLINE void test(const TriangleBlock& block, uint32_t triangles, uint32_t rays) {
     for (uint32_t rest = triangles; rest != 0 && (rays & alive) != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
-      const LaneHits hits = triangle_lanes<true>(p, block, j);
+      const LaneHits hits = triangle_lanes<SureHits::kOfAny>(p, block, j);
       const uint32_t primitive = block.primitive[j];
       const uint32_t sure = hits.sure & rays & alive;
       if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure;
@@ -167,52 +167,89 @@ struct PacketEntry {
   uint32_t child;
 };
 
+// Of each ray the closest hit so far: most are known only by bounds on their t, which is enough to order nearly all of them.
 struct ClosestPacket : PacketTask {
-  alignas(64) double best_t[kLanes];  // t_max until something is hit
+  alignas(64) double best_t[kLanes];   // t_max until something is hit; no less than t where it is not known
   alignas(64) uint32_t best[kLanes];
+  alignas(64) uint32_t place[kLanes];  // of `best` among the triangles of all blocks
+  F32 low;                             // no more than t; p.limit is no less
+  uint32_t known = 0;                  // rays whose best_t is t
 
   using PacketTask::PacketTask;
   HWY_INLINE void start(int at) {
     PacketTask::start(at);
-    i32(kNoPrimitive).store(best);
-    if (p.valid != 0) p.t_max.store(best_t);
+    i32(kNoPrimitive).store(best), i32(0).store(place);
+    if (p.valid == 0) return;
+    p.t_max.store(best_t);
+    low = round_down_lanes(p.t_max);
+    known = (1u << kLanes) - 1;
   }
 
   // near: where the rays enter `child`, nullptr for 0.
   HWY_INLINE void alone(uint32_t child, const float* near, uint32_t rays) {
+    alignas(64) float lows[kLanes], limits[kLanes];
+    low.store(lows), p.limit.store(limits);
     for (uint32_t rest = rays; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       LaneRay ray;
       take_lane(lanes(), i, ray);
-      ClosestVisitor visitor{batch, ray.exact, first + i, best_t[i], best[i], round_up(best_t[i])};
+      ClosestVisitor visitor{batch, data, ray.exact, first + i, best_t[i], best[i], place[i], lows[i], limits[i], (known >> i & 1u) != 0};
       traverse(data, child, near != nullptr ? near[i] : 0.0f, ray, visitor);
-      best_t[i] = visitor.best_t, best[i] = visitor.best;
+      best_t[i] = visitor.best_t, best[i] = visitor.best, place[i] = visitor.place, lows[i] = visitor.low, limits[i] = visitor.limit;
+      known = (known & ~(1u << i)) | static_cast<uint32_t>(visitor.known) << i;
     }
-    p.limit = round_up_lanes(F64::load(best_t));
+    low = F32::load(lows), p.limit = F32::load(limits);
+  }
+
+  // The closest hits of some lanes: triangle `at` of all blocks, at [from, to].
+  HWY_INLINE void set(uint32_t rays, uint32_t primitive, uint32_t at, F64 t, F32 from, F32 to) {
+    const Mask m = mask_from_bits(rays);
+    select(m, t, F64::load(best_t)).store(best_t);
+    select(m, i32(primitive), I32::load(best)).store(best);
+    select(m, i32(at), I32::load(place)).store(place);
+    low = select(m, from, low), p.limit = select(m, to, p.limit);
   }
 
   // Takes the hits of some lanes with one triangle.
-  HWY_INLINE void take(uint32_t hit, F64 t, uint32_t primitive) {
+  HWY_INLINE void take(uint32_t hit, F64 t, uint32_t primitive, uint32_t at) {
+    hit &= ~bits_less(to_f64(p.limit), t);
+    for (uint32_t rest = hit & ~known & ~bits_less(t, to_f64(low)); rest != 0; rest &= rest - 1) know(std::countr_zero(rest));
     const F64 before = F64::load(best_t);
     const uint32_t nearer = bits_less(t, before), same = ~(nearer | bits_less(before, t));
     uint32_t counts = hit & (nearer | (same & ~to_bits(less_unsigned(I32::load(best), i32(primitive)))));
     if (counts != 0) counts = ask(counts, primitive);
     if (counts == 0) return;
-    const Mask m = mask_from_bits(counts);
-    const F64 after = select(m, t, before);
-    after.store(best_t);
-    select(m, i32(primitive), I32::load(best)).store(best);
-    p.limit = round_up_lanes(after);
+    set(counts, primitive, at, t, round_down_lanes(t), round_up_lanes(t));
+    known |= counts;
+  }
+
+  // Finds out the t of a hit that bounds were enough for until now.
+  HWY_NOINLINE void know(int i) {
+    LaneRay ray;
+    take_lane(lanes(), i, ray);
+    hit_triangle(ray.exact, triangle_at(data, place[i]), best_t[i]);
+    known |= 1u << i;
   }
 
   HWY_INLINE void leaf(uint32_t child, uint32_t rays, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(child)];
     for (uint32_t rest = leaf_lanes(child) & beam_triangles(block, beam); rest != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
-      const uint32_t maybe = triangle_lanes<false>(p, block, j).maybe & rays;
+      LaneDistances t;
+      const LaneHits hits = triangle_lanes<SureHits::kOfClosest>(p, block, j, &t);
+      uint32_t maybe = hits.maybe & rays;
+      if (maybe == 0) continue;
+      const uint32_t primitive = block.primitive[j], at = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(j);
+      const uint32_t nearer = hits.sure & maybe & to_bits(t.high < low);
+      maybe &= ~(nearer | (hits.sure & to_bits(t.low > p.limit)));
+      if (nearer != 0)
+        if (const uint32_t counts = ask(nearer, primitive); counts != 0) {
+          set(counts, primitive, at, to_f64(t.high), t.low, t.high);
+          known &= ~counts;
+        }
       if (maybe == 0) continue;
       const ExactLanes exact = exact_lanes(p, block, j);
-      if ((exact.hit & maybe) != 0) take(exact.hit & maybe, exact.t, block.primitive[j]);
+      if ((exact.hit & maybe) != 0) take(exact.hit & maybe, exact.t, primitive, at);
     }
   }
 

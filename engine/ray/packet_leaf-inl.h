@@ -28,13 +28,17 @@ HWY_INLINE AlongAxes vertex_along(const RayPacket& p, const TriangleBlock& block
   return {by_axis(p, b, c, a), by_axis(p, c, a, b), by_axis(p, a, b, c)};
 }
 
-// Rays that might hit a triangle at no more than their limit, and those of them that surely do: hit_triangle() would
-// accept them, at less than the limit.
+// Rays that might hit a triangle at no more than their limit, and those of them that surely do: hit_triangle() would accept them. For any hit
+// also at less than the limit; for the closest, low <= t <= high for its t.
 struct LaneHits { uint32_t maybe, sure; };
+struct LaneDistances { F32 low, high; };
+enum class SureHits { kOfAny, kOfClosest };
 
-// Inside by more than the error of the edge functions, and every vertex in front of the origin and nearer than the limit, also after
-// rounding: t lies between those of the vertices, whose numbers here are at most 8 roundings too small.
-template <bool kSure> HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& block, int triangle) {
+// Sure: inside by more than the error of the edge functions, and every vertex in front of the origin. Any hit: and nearer than the limit, also
+// after rounding: t lies between those of the vertices, whose numbers here are at most 8 roundings too small.
+// Closest: see kSureWeights.
+template <SureHits kSure>
+HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& block, int triangle, LaneDistances* distances = nullptr) {
   F32 x[3], y[3], t[3];
   for (int v = 0; v < 3; ++v) {
     const AlongAxes a = vertex_along(p, block, v, triangle);
@@ -52,10 +56,17 @@ template <bool kSure> HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, con
   const F32 first = cull_min(cull_min(t[0], t[1]), t[2]), last = cull_max(cull_max(t[0], t[1]), t[2]);
   const Mask miss = ((least < -error) & (greatest > error)) | (first > p.limit) | (last < F32::zero());
   LaneHits hits{~to_bits(miss) & ((1u << kLanes) - 1), 0};
-  if constexpr (kSure) {
-    if (hits.maybe != 0)
-      hits.sure = hits.maybe & to_bits(((least > error) | (greatest < -error)) & (first > F32::zero()) &
-                                       (last * f32(1 + 0x1p-20f) < p.limit));
+  if (hits.maybe == 0) return hits;
+  const Mask inside = ((least > error) | (greatest < -error)) & (first > F32::zero());
+  if constexpr (kSure == SureHits::kOfAny) {
+    hits.sure = hits.maybe & to_bits(inside & (last * f32(1 + 0x1p-20f) < p.limit));
+  } else {
+    const F32 det = edge_u + edge_v + edge_w, one_by_det = f32(1.0f) / det;
+    hits.sure = hits.maybe & to_bits(inside & (abs_(det) > f32(kLeastSureDet)));
+    const F32 middle = cull_mul_add(edge_u * one_by_det, t[0], cull_mul_add(edge_v * one_by_det, t[1], edge_w * one_by_det * t[2]));
+    const F32 rounding = cull_mul_add(f32(kSureRounding), last, f32(kSureUnderflow));
+    const F32 off = cull_mul_add(f32(kSureWeights) * error * (last - first), abs_(one_by_det), rounding);
+    *distances = {middle - off, middle + off};
   }
   return hits;
 }

@@ -58,6 +58,11 @@ HWY_INLINE F32 round_up_lanes(F64 t) {
   return select(t < f64(static_cast<double>(kLargestT)), up, f32(kLargestT));
 }
 
+// No more than t.
+HWY_INLINE F32 round_down_lanes(F64 t) {
+  return to_f32(t) * f32(1 - 0x1p-23f);
+}
+
 // One of three by the axis along which the direction is largest.
 HWY_INLINE F32 by_axis(const RayPacket& p, F32 if0, F32 if1, F32 if2) { return select(p.z_is[2], if2, select(p.z_is[1], if1, if0)); }
 

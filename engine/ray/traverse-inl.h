@@ -41,12 +41,20 @@ HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay
   return {near <= far, near};
 }
 
+// Where a ray surely passes inside a triangle whose vertices are all in front of it, bounds on t in float order most hits: t is the mean of
+// the vertices', weighted by the edge functions. With these off by at most `error` each, the errors of the weights sum up to 6 error / |det|
+// at most, and move t by no more than that share of what the vertices' t differ by. Roundings are less than 2^-19 of the greatest t.
+inline constexpr float kSureWeights = 6.1f, kSureRounding = 0x1p-18f, kSureUnderflow = 0x1p-120f;
+inline constexpr float kLeastSureDet = 0x1p-100f;  // above, det has the precision of normal floats
+
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
-// that it accepts, and at less than limit: the ray passes inside by more than the error of the edge functions, every vertex is in front
-// of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
-// 8 roundings too small).
+// that it accepts. Any hit: at less than the limit: the ray passes inside by more than the error of the edge functions, every vertex is in
+// front of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
+// 8 roundings too small). Closest hit: with low <= t <= high.
 struct Candidates { uint32_t maybe, sure; };
-template <bool kSure> HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray, float limit) {
+struct CandidateDistances { alignas(32) float low[kBvhWidth], high[kBvhWidth]; };
+template <class Visitor>
+HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray, float limit, CandidateDistances& distances) {
   const int kx = ray.exact.kx, ky = ray.exact.ky, kz = ray.exact.kz;
   const F8 ox = f8(ray.exact.origin[kx]), oy = f8(ray.exact.origin[ky]), oz = f8(ray.exact.origin[kz]);
   const F8 shear_x = f8(ray.shear_x), shear_y = f8(ray.shear_y), inv_z = f8(ray.exact.inv_near[kz]);
@@ -69,9 +77,17 @@ template <bool kSure> HWY_INLINE Candidates candidates(const TriangleBlock& bloc
     const Mask8 miss = ((least < -error) & (greatest > error)) | (first > f8(limit)) | (last < f8(0.0f));
     const uint32_t maybe = ~to_bits(miss) & ((1u << kLanes8) - 1);
     found.maybe |= maybe << s;
-    if constexpr (kSure) {
-      const Mask8 sure = ((least > error) | (greatest < -error)) & (first > f8(0.0f)) & (last * f8(1 + 0x1p-20f) < f8(limit));
-      found.sure |= (to_bits(sure) & maybe) << s;
+    if (!(Visitor::kAny || Visitor::kClosest) || maybe == 0) continue;
+    const Mask8 inside = ((least > error) | (greatest < -error)) & (first > f8(0.0f));
+    if constexpr (Visitor::kAny) {
+      found.sure |= (to_bits(inside & (last * f8(1 + 0x1p-20f) < f8(limit))) & maybe) << s;
+    } else {
+      const F8 det = edge_u + edge_v + edge_w, one_by_det = f8(1.0f) / det;
+      found.sure |= (to_bits(inside & (abs_(det) > f8(kLeastSureDet))) & maybe) << s;
+      const F8 middle = edge_u * one_by_det * t[0] + edge_v * one_by_det * t[1] + edge_w * one_by_det * t[2];
+      const F8 off = f8(kSureWeights) * error * (last - first) * abs_(one_by_det) + (f8(kSureRounding) * last + f8(kSureUnderflow));
+      (middle - off).store(distances.low + s);
+      (middle + off).store(distances.high + s);
     }
   }
   return found;
@@ -121,10 +137,10 @@ struct Stack {
   }
 };
 
-template <class Visitor> HWY_INLINE bool visit_triangle(const TriangleBlock& block, int lane, const LaneRay& ray, Visitor& visitor) {
-  const TriangleView triangle{&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth};
-  double t;
-  return hit_triangle(ray.exact, triangle, t) && visitor.takes(triangle) && visitor.hit(t, block.primitive[lane]);
+HWY_INLINE TriangleView triangle_of(const TriangleBlock& block, int lane) { return {&block.vertex[0][0][lane], 3 * kBvhWidth, kBvhWidth}; }
+// place: among the triangles of all blocks.
+HWY_INLINE TriangleView triangle_at(const Bvh::Data& data, uint32_t place) {
+  return triangle_of(data.blocks[place / kBvhWidth], static_cast<int>(place % kBvhWidth));
 }
 
 // Tests the triangles of a leaf; true if the visitor wants to end.
@@ -132,12 +148,28 @@ template <class Visitor>
 HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
   const TriangleBlock& block = data.blocks[leaf_block(child)];
   const uint32_t used = leaf_lanes(child);
-  const Candidates found = candidates<Visitor::kAny>(block, ray, visitor.limit);
+  CandidateDistances t_of;
+  const Candidates found = candidates<Visitor>(block, ray, visitor.limit, t_of);
   if constexpr (Visitor::kAny)
     for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
       if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
   for (uint32_t bits = found.maybe & used; bits != 0; bits &= bits - 1) {
-    if (visit_triangle(block, std::countr_zero(bits), ray, visitor)) return true;
+    const int lane = std::countr_zero(bits);
+    [[maybe_unused]] const uint32_t place = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(lane);
+    if constexpr (Visitor::kClosest) {
+      if ((found.sure >> lane & 1u) != 0) {
+        if (t_of.low[lane] > visitor.limit) continue;
+        if (t_of.high[lane] < visitor.low) {
+          visitor.sure(t_of.low[lane], t_of.high[lane], block.primitive[lane], place);
+          continue;
+        }
+      }
+    }
+    const TriangleView triangle = triangle_of(block, lane);
+    double t;
+    if (!hit_triangle(ray.exact, triangle, t)) continue;
+    if constexpr (Visitor::kClosest) visitor.hit(t, block.primitive[lane], place);
+    else if (visitor.takes(triangle) && visitor.hit(t, block.primitive[lane])) return true;
   }
   return false;
 }

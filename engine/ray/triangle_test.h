@@ -77,6 +77,9 @@ inline float round_up(double t) {
   return static_cast<double>(f) < t ? std::bit_cast<float>(std::bit_cast<uint32_t>(f) + 1) : f;
 }
 
+// A float that is no more than t; t >= 0.
+inline float round_down(double t) { return static_cast<float>(t) * (1 - 0x1p-23f); }
+
 // Coordinate k of vertex i of a triangle, vertices in canonical order.
 struct TriangleView {
   const float* first;

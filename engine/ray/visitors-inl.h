@@ -39,25 +39,38 @@ struct Batch {
   }
 };
 
+// The closest hit so far is often known only by bounds on its t.
 struct ClosestVisitor {
-  static constexpr bool kAny = false;
+  static constexpr bool kAny = false, kClosest = true;
   const Batch& batch;
+  const Bvh::Data& data;
   const TraceRay& ray;
   int index;
-  double best_t;
+  double best_t;  // no less than t where it is not known
   uint32_t best;
-  float limit;  // >= best_t
-  HWY_INLINE bool takes(const TriangleView&) const { return true; }
-  HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (t > best_t || (t == best_t && primitive > best)) return false;
-    if (!batch.accepts(index, ray.origin, primitive)) return false;
-    best_t = t, best = primitive, limit = round_up(t);
-    return false;
+  uint32_t place;    // of `best` among the triangles of all blocks
+  float low, limit;  // no more than t, no less than t
+  bool known;        // best_t is t
+
+  // A hit that is surely accepted, with from <= t <= to.
+  HWY_INLINE void sure(float from, float to, uint32_t primitive, uint32_t at) {
+    if (batch.accepts(index, ray.origin, primitive))
+      best_t = static_cast<double>(to), best = primitive, place = at, low = from, limit = to, known = false;
+  }
+  HWY_INLINE void hit(double t, uint32_t primitive, uint32_t at) {
+    if (!known && t >= static_cast<double>(low) && t <= static_cast<double>(limit)) know();
+    if (t > best_t || (t == best_t && primitive > best)) return;
+    if (!batch.accepts(index, ray.origin, primitive)) return;
+    best_t = t, best = primitive, place = at, limit = round_up(t), low = round_down(t), known = true;
+  }
+  HWY_NOINLINE void know() {
+    hit_triangle(ray, triangle_at(data, place), best_t);
+    known = true;
   }
 };
 
 struct AnyVisitor {
-  static constexpr bool kAny = true;
+  static constexpr bool kAny = true, kClosest = false;
   const Batch& batch;
   const TraceRay& ray;
   int index;
@@ -76,7 +89,7 @@ struct AnyVisitor {
 };
 
 struct AllVisitor {
-  static constexpr bool kAny = false;
+  static constexpr bool kAny = false, kClosest = false;
   const Batch& batch;
   const TraceRay& ray;
   int index;

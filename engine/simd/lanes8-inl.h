@@ -29,6 +29,7 @@ HWY_INLINE F8 f8(float x) { return {hn8::Set(D8(), x)}; }
 HWY_INLINE F8 operator+(F8 a, F8 b) { return {hn8::Add(a.v, b.v)}; }
 HWY_INLINE F8 operator-(F8 a, F8 b) { return {hn8::Sub(a.v, b.v)}; }
 HWY_INLINE F8 operator*(F8 a, F8 b) { return {hn8::Mul(a.v, b.v)}; }
+HWY_INLINE F8 operator/(F8 a, F8 b) { return {hn8::Div(a.v, b.v)}; }
 HWY_INLINE F8 operator-(F8 a) { return {hn8::Xor(a.v, hn8::Set(D8(), -0.0f))}; }
 HWY_INLINE F8 abs_(F8 a) { return {hn8::Abs(a.v)}; }
 HWY_INLINE Mask8 operator<(F8 a, F8 b) { return {hn8::Lt(a.v, b.v)}; }
