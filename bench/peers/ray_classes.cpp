@@ -73,6 +73,7 @@ glm::dvec3 cosine_direction(const glm::dvec3& n, uint32_t pixel) {
 RayBatch scattered_part(const RayBatch& mirrors, const SurfaceBatch& surfaces, const AlignedBuffer<uint32_t>& surface_of_ray, float length) {
   RayBatch rays;
   rays.resize(mirrors.count, false);
+  rays.from.resize(mirrors.from.size());
   for (size_t i = 0; i < static_cast<size_t>(mirrors.count); ++i) {
     const uint32_t s = surface_of_ray[i];
     const glm::dvec3 n(surfaces.geometric_normal[0][s], surfaces.geometric_normal[1][s], surfaces.geometric_normal[2][s]);
@@ -80,6 +81,7 @@ RayBatch scattered_part(const RayBatch& mirrors, const SurfaceBatch& surfaces, c
     for (int k = 0; k < 3; ++k) rays.origin[k][i] = mirrors.origin[k][i], rays.direction[k][i] = static_cast<float>(d[k]);
     rays.t_max[i] = length;
     rays.pixel[i] = mirrors.pixel[i];
+    rays.from[i] = mirrors.from[i];
   }
   return rays;
 }

@@ -29,6 +29,7 @@ inline uint32_t pack_pixel(uint32_t x, uint32_t y) { return x | (y << 16); }
 struct RayBatch {
   AlignedBuffer<float> origin[3], direction[3];
   AlignedBuffer<float> t_max;        // a hit at exactly t_max counts; infinity for closest hits
+  AlignedBuffer<uint32_t> from;      // the triangle that the ray leaves, and so never hits; empty: no ray leaves one
   AlignedBuffer<uint32_t> pixel;     // the pixel that started the ray: the screen-door mask, and where results go
   AlignedBuffer<float> origin_dx[3], origin_dy[3], direction_dx[3], direction_dy[3];  // empty without differentials
   int count = 0;
@@ -46,7 +47,7 @@ struct RayBatch {
     t_max.resize(n), pixel.resize(n);
   }
   size_t memory_bytes() const {
-    size_t bytes = t_max.bytes() + pixel.bytes();
+    size_t bytes = t_max.bytes() + from.bytes() + pixel.bytes();
     for (int k = 0; k < 3; ++k)
       bytes += origin[k].bytes() + direction[k].bytes() + origin_dx[k].bytes() + origin_dy[k].bytes() + direction_dx[k].bytes() +
                direction_dy[k].bytes();

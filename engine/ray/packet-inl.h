@@ -64,6 +64,14 @@ struct PacketTask {
     return lanes_;
   }
 
+  // The rays that leave a triangle.
+  HWY_INLINE uint32_t leaving(uint32_t primitive) const { return to_bits(p.from == i32(primitive)); }
+
+  // The triangles of a leaf that some ray may hit, by their boxes and by where the rays come from.
+  HWY_INLINE uint32_t triangles_ahead(const TriangleBlock& block, uint32_t child, const Beam& beam) const {
+    return leaf_lanes(child) & beam_triangles(block, beam) & ~words_equal(block.primitive, p.all_from);
+  }
+
   // Of some rays, those whose hit the surface takes.
   HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) {
     if (batch.takes_all(primitive)) return rays;
@@ -114,7 +122,7 @@ struct AnyPacket : PacketTask {
 
   HWY_INLINE void leaf(AnyEntry entry, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(entry.child)];
-    test(block, leaf_lanes(entry.child) & beam_triangles(block, beam), entry.rays);
+    test(block, triangles_ahead(block, entry.child, beam), entry.rays);
   }
 
   // Some triangles of a block against some rays.
@@ -122,10 +130,12 @@ struct AnyPacket : PacketTask {
     for (uint32_t rest = triangles; rest != 0 && (rays & alive) != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
       const LaneHits hits = triangle_lanes<SureHits::kOfAny>(p, block, j);
+      uint32_t maybe = hits.maybe & rays & alive;
+      if (maybe == 0) continue;
       const uint32_t primitive = block.primitive[j];
-      const uint32_t sure = hits.sure & rays & alive;
-      if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure;
-      const uint32_t maybe = hits.maybe & rays & alive;
+      maybe &= ~leaving(primitive);
+      const uint32_t sure = hits.sure & maybe;
+      if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure, maybe &= ~sure;
       if (maybe == 0) continue;
       const ExactLanes exact = exact_lanes(p, block, j);
       uint32_t found = exact.hit & maybe;
@@ -233,12 +243,13 @@ struct ClosestPacket : PacketTask {
 
   HWY_INLINE void leaf(uint32_t child, uint32_t rays, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(child)];
-    for (uint32_t rest = leaf_lanes(child) & beam_triangles(block, beam); rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = triangles_ahead(block, child, beam); rest != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
       LaneDistances t;
       const LaneHits hits = triangle_lanes<SureHits::kOfClosest>(p, block, j, &t);
       uint32_t maybe = hits.maybe & rays;
       if (maybe == 0) continue;
+      maybe &= ~leaving(block.primitive[j]);
       const uint32_t primitive = block.primitive[j], at = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(j);
       const uint32_t nearer = hits.sure & maybe & to_bits(t.high < low);
       maybe &= ~(nearer | (hits.sure & to_bits(t.low > p.limit)));

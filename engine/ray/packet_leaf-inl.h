@@ -35,7 +35,7 @@ struct LaneDistances { F32 low, high; };
 enum class SureHits { kOfAny, kOfClosest };
 
 // Sure: inside by more than the error of the edge functions, and every vertex in front of the origin. Any hit: and nearer than the limit, also
-// after rounding: t lies between those of the vertices, whose numbers here are at most 8 roundings too small.
+// after rounding: t lies between those of the vertices, whose numbers here are at most 10 roundings too small.
 // Closest: see kSureWeights.
 template <SureHits kSure>
 HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& block, int triangle, LaneDistances* distances = nullptr) {
@@ -79,11 +79,12 @@ struct ExactLanes { F64 t; uint32_t hit; };
 HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block, int triangle) {
   F64 x[3], y[3], z[3];
   const F64 zero = f64(0.0);
+  const ShearLanes shear = exact_shear(p);
   for (int v = 0; v < 3; ++v) {
     const AlongAxes a = vertex_along(p, block, v, triangle);
     z[v] = to_f64(a.z) - to_f64(p.origin_z);
-    x[v] = (to_f64(a.x) - to_f64(p.origin_x)) - p.shear_x * z[v];
-    y[v] = (to_f64(a.y) - to_f64(p.origin_y)) - p.shear_y * z[v];
+    x[v] = (to_f64(a.x) - to_f64(p.origin_x)) - shear.x * z[v];
+    y[v] = (to_f64(a.y) - to_f64(p.origin_y)) - shear.y * z[v];
   }
   const F64 u = x[2] * y[1] - y[2] * x[1];
   const F64 v = x[0] * y[2] - y[0] * x[2];

@@ -27,8 +27,10 @@ HWY_INLINE float greatest_lane(F32 a) { return hn::GetLane(hn::MaxOfLanes(DF(), 
 struct RayPacket {
   F32 origin[3], inv_near[3], inv_far[3];  // TraceRay
   F32 limit;                               // round_up() of t_max, then of the best hit
-  F64 shear_x, shear_y, direction_z, t_max;
+  F64 direction_z, t_max;
   Mask negative[3];
+  I32 from;                                // the triangles that they leave, or kNoPrimitive
+  uint32_t all_from;                       // the one that all leave; kNoPrimitive if there is none
   uint32_t valid;                          // the other lanes repeat a valid one
   int mixed_axes;                          // along which directions have both signs
   int near_row[3], far_row[3];             // of BvhNode::bounds, along the other axes
@@ -36,6 +38,7 @@ struct RayPacket {
   Mask z_is[3];
   int kz;
   F32 origin_x, origin_y, origin_z, inv_z;   // along them
+  F32 along_x, along_y, along_z;             // directions, not scaled
   F32 shear_x32, shear_y32, edge_slope, edge_offset;  // LaneRay
 };
 
@@ -104,15 +107,29 @@ HWY_INLINE uint32_t mend_raw(RawRays& r) {
   return bits;
 }
 
+// The triangles that n rays leave.
+HWY_INLINE void load_from(const RayBatch& rays, int first, int n, RayPacket& p) {
+  p.from = i32(kNoPrimitive), p.all_from = kNoPrimitive;
+  if (rays.from.empty()) return;
+  const uint32_t* const from = rays.from.data() + first;
+  if (n == kLanes) {
+    p.from = I32::load(from);
+  } else {
+    alignas(64) uint32_t lanes[kLanes];
+    for (int i = 0; i < kLanes; ++i) lanes[i] = from[i < n ? i : 0];
+    p.from = I32::load(lanes);
+  }
+  if (all(p.from == i32(from[0]))) p.all_from = from[0];
+}
+
 // What prepare_ray() finds out about one axis: d is the scaled direction.
 HWY_INLINE void prepare_axis(RayPacket& p, int k, F32 direction, F64 d) {
-  constexpr double kWiden = 4.0 / (1 << 24);
-  const F64 inverse = f64(1.0) / d;
+  const F32 inverse = f32(1.0f) / to_f32(d);
   const Mask zero = direction == F32::zero(), tiny = abs_(d) < f64(0x1p-126);
   const F32 infinite = copysign_(f32(std::numeric_limits<float>::infinity()), direction);
   const F32 nan = f32(std::numeric_limits<float>::quiet_NaN());
-  p.inv_near[k] = select(zero, infinite, select(tiny, nan, to_f32(inverse * f64(1.0 - kWiden))));
-  p.inv_far[k] = select(zero, infinite, select(tiny, nan, to_f32(inverse * f64(1.0 + kWiden))));
+  p.inv_near[k] = select(zero, infinite, select(tiny, nan, inverse * f32(1.0f - kSlabWidening)));
+  p.inv_far[k] = select(zero, infinite, select(tiny, nan, inverse * f32(1.0f + kSlabWidening)));
   p.negative[k] = bits_of(direction) < I32::zero();
   const uint32_t signs = to_bits(p.negative[k]);
   p.near_row[k] = signs != 0 ? k + 3 : k, p.far_row[k] = signs != 0 ? k : k + 3;
@@ -126,15 +143,22 @@ HWY_INLINE void prepare_shear(RayPacket& p, const RawRays& r, F64 scale) {
   p.z_is[1] = and_not(p.z_is[2], size[1] > size[0]);
   p.z_is[0] = !(p.z_is[2] | p.z_is[1]);
   p.kz = all(p.z_is[0]) ? 0 : all(p.z_is[1]) ? 1 : all(p.z_is[2]) ? 2 : -1;
-  const F64 z = to_f64(by_axis(p, r.direction[0], r.direction[1], r.direction[2]));
-  p.direction_z = z * scale;
-  p.shear_x = to_f64(by_axis(p, r.direction[1], r.direction[2], r.direction[0])) / z;
-  p.shear_y = to_f64(by_axis(p, r.direction[2], r.direction[0], r.direction[1])) / z;
-  p.shear_x32 = to_f32(p.shear_x), p.shear_y32 = to_f32(p.shear_y);
+  p.along_x = by_axis(p, r.direction[1], r.direction[2], r.direction[0]);
+  p.along_y = by_axis(p, r.direction[2], r.direction[0], r.direction[1]);
+  p.along_z = by_axis(p, r.direction[0], r.direction[1], r.direction[2]);
+  p.direction_z = to_f64(p.along_z) * scale;
+  p.shear_x32 = p.along_x / p.along_z, p.shear_y32 = p.along_y / p.along_z;
   p.origin_x = by_axis(p, r.origin[1], r.origin[2], r.origin[0]);
   p.origin_y = by_axis(p, r.origin[2], r.origin[0], r.origin[1]);
   p.origin_z = by_axis(p, r.origin[0], r.origin[1], r.origin[2]);
   p.inv_z = by_axis(p, p.inv_near[0], p.inv_near[1], p.inv_near[2]);
+}
+
+// TraceRay::shear_x and shear_y, which most packets never need.
+struct ShearLanes { F64 x, y; };
+HWY_INLINE ShearLanes exact_shear(const RayPacket& p) {
+  const F64 z = to_f64(p.along_z);
+  return {to_f64(p.along_x) / z, to_f64(p.along_y) / z};
 }
 
 // Rays first to first + n - 1 of the batch; p.valid is 0 if none is a ray.
@@ -144,6 +168,7 @@ HWY_INLINE void prepare_packet(const Bvh::Data& data, const RayBatch& rays, int 
   RawRays r = load_raw(rays, first, n);
   p.valid = mend_raw(r);
   if (p.valid == 0) return;
+  load_from(rays, first, n, p);
   const ScaleLanes scales = scale_of(to_f64(r.largest));
   const F64 scale = scales.to_one;
   p.t_max = to_f64(r.t_max) * scales.size;  // a power of two: exact, as the division
@@ -167,6 +192,7 @@ struct PacketLanes {
   alignas(64) float origin[3][kLanes], inv_near[3][kLanes], inv_far[3][kLanes];
   alignas(64) float shear_x32[kLanes], shear_y32[kLanes], edge_slope[kLanes], edge_offset[kLanes];
   alignas(64) float limit[kLanes];  // of t_max
+  alignas(64) uint32_t from[kLanes];
   alignas(64) double shear_x[kLanes], shear_y[kLanes], direction_z[kLanes], t_max[kLanes];
   uint32_t negative[3], z_is[3];
 };
@@ -178,8 +204,10 @@ HWY_INLINE void store_lanes(const RayPacket& p, PacketLanes& out) {
   }
   p.shear_x32.store(out.shear_x32), p.shear_y32.store(out.shear_y32);
   p.limit.store(out.limit);
+  p.from.store(out.from);
   p.edge_slope.store(out.edge_slope), p.edge_offset.store(out.edge_offset);
-  p.shear_x.store(out.shear_x), p.shear_y.store(out.shear_y), p.direction_z.store(out.direction_z), p.t_max.store(out.t_max);
+  const ShearLanes shear = exact_shear(p);
+  shear.x.store(out.shear_x), shear.y.store(out.shear_y), p.direction_z.store(out.direction_z), p.t_max.store(out.t_max);
 }
 
 // Lane i by itself.
@@ -196,6 +224,7 @@ HWY_INLINE void take_lane(const PacketLanes& p, int i, LaneRay& ray) {
   }
   e.shear_x = p.shear_x[i], e.shear_y = p.shear_y[i], e.direction_z = p.direction_z[i], e.t_max = p.t_max[i];
   ray.shear_x = p.shear_x32[i], ray.shear_y = p.shear_y32[i];
+  ray.from = p.from[i];
   ray.edge_slope = p.edge_slope[i], ray.edge_offset = p.edge_offset[i];
 }
 

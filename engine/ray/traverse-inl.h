@@ -24,6 +24,7 @@ namespace HWY_NAMESPACE {
 // A ray with what the lanes need of it.
 struct LaneRay {
   TraceRay exact;
+  uint32_t from;  // the triangle that it leaves, or kNoPrimitive
   float shear_x, shear_y;
   float edge_slope, edge_offset;  // an edge function in lanes is off by at most slope * (sum of |x| + |y|) + offset
   int near_row[3], far_row[3];    // rows of BvhNode::bounds
@@ -50,7 +51,7 @@ inline constexpr float kLeastSureDet = 0x1p-100f;  // above, det has the precisi
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
 // that it accepts. Any hit: at less than the limit: the ray passes inside by more than the error of the edge functions, every vertex is in
 // front of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
-// 8 roundings too small). Closest hit: with low <= t <= high.
+// 10 roundings too small). Closest hit: with low <= t <= high.
 struct Candidates { uint32_t maybe, sure; };
 struct CandidateDistances { alignas(32) float low[kBvhWidth], high[kBvhWidth]; };
 template <class Visitor>
@@ -152,9 +153,10 @@ HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay&
   const Candidates found = candidates<Visitor>(block, ray, visitor.limit, t_of);
   if constexpr (Visitor::kAny)
     for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
-      if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
+      if (block.primitive[std::countr_zero(bits)] != ray.from && visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
   for (uint32_t bits = found.maybe & used; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);
+    if (block.primitive[lane] == ray.from) continue;
     [[maybe_unused]] const uint32_t place = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(lane);
     if constexpr (Visitor::kClosest) {
       if ((found.sure >> lane & 1u) != 0) {

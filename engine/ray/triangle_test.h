@@ -11,6 +11,9 @@ namespace spanray {
 
 inline constexpr float kLargestT = std::numeric_limits<float>::max();
 
+// slab() rounds four times, reciprocals included. The factors 1 -+ 6u make the near side an under- and the far side an overestimate (Ize 2013).
+inline constexpr float kSlabWidening = 6.0f / (1 << 24);
+
 // One ray, with its direction scaled by a power of two so that the largest component is in [1, 2): exact, and then neither
 // reciprocals nor distances leave the range of float. All t below count in units of that direction.
 struct TraceRay {
@@ -43,15 +46,14 @@ inline bool prepare_ray(const float origin[3], const float direction[3], float t
   for (int k = 0; k < 3; ++k) {
     const double d = static_cast<double>(direction[k]) * scale;
     ray.negative[k] = std::signbit(direction[k]);
-    // slab() rounds three times. The factors 1 -+ 4u make the near side an under- and the far side an overestimate (Ize 2013).
-    constexpr double kWiden = 4.0 / (1 << 24);
     if (direction[k] == 0.0f) {
       ray.inv_near[k] = ray.inv_far[k] = ray.negative[k] ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
     } else if (std::fabs(d) < 0x1p-126) {
       ray.inv_near[k] = ray.inv_far[k] = std::numeric_limits<float>::quiet_NaN();  // no reciprocal: the axis never culls
     } else {
-      ray.inv_near[k] = static_cast<float>(1.0 / d * (1.0 - kWiden));
-      ray.inv_far[k] = static_cast<float>(1.0 / d * (1.0 + kWiden));
+      const float inverse = 1.0f / static_cast<float>(d);  // d is a float
+      ray.inv_near[k] = inverse * (1.0f - kSlabWidening);
+      ray.inv_far[k] = inverse * (1.0f + kSlabWidening);
     }
   }
   ray.direction_z = static_cast<double>(direction[ray.kz]) * scale;

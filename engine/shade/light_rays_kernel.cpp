@@ -46,6 +46,7 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
   const bool by_normal = frame.settings.shading == Shading::kPhong;
   int n = rays.count;
   rays.resize(n + s.count, false);
+  rays.from.resize(static_cast<size_t>(n + s.count));
   surface_of_ray.resize(static_cast<size_t>(n + s.count));
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, nullptr);
@@ -66,10 +67,12 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
       for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
       rays.t_max[n] = t_max[k];
       rays.pixel[n] = s.pixel[i + k];
+      rays.from[n] = s.primitive[i + k];
       surface_of_ray[n++] = static_cast<uint32_t>(i + k);
     }
   }
   rays.resize(n, false);
+  rays.from.resize(static_cast<size_t>(n));
   surface_of_ray.resize(static_cast<size_t>(n));
 }
 
@@ -145,6 +148,7 @@ void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const Hit
                             AlignedBuffer<uint32_t>& surface_of_ray) {
   int n = rays.count;
   rays.resize(n + s.count, true);
+  rays.from.resize(static_cast<size_t>(n + s.count));
   surface_of_ray.resize(static_cast<size_t>(n + s.count));
   for (int i = 0; i < s.count; i += kLanes) {
     const V3 mirror = load3(s.mirror, i);
@@ -169,10 +173,12 @@ void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const Hit
       }
       rays.t_max[n] = kInfinity;
       rays.pixel[n] = s.pixel[i + k];
+      rays.from[n] = s.primitive[i + k];
       surface_of_ray[n++] = static_cast<uint32_t>(i + k);
     }
   }
   rays.resize(n, true);
+  rays.from.resize(static_cast<size_t>(n));
   surface_of_ray.resize(static_cast<size_t>(n));
 }
 

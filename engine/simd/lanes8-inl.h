@@ -40,6 +40,17 @@ HWY_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return {hn8::Or(a.m, b.m)}; }
 // The machine's own: b if a is NaN, on every target; either zero if both are zeros. For culling only (DESIGN 3, rule 6).
 HWY_INLINE F8 cull_min(F8 a, F8 b) { return {hn8::Min(a.v, b.v)}; }
 HWY_INLINE F8 cull_max(F8 a, F8 b) { return {hn8::Max(a.v, b.v)}; }
+// Bit i tells whether words[i] is x, for eight words.
+HWY_INLINE uint32_t words_equal(const uint32_t* words, uint32_t x) {
+  const hn8::RebindToUnsigned<D8> du;
+  uint32_t bits = 0;
+  for (int s = 0; s < 8; s += kLanes8) {
+    uint8_t bytes[8];
+    hn8::StoreMaskBits(du, hn8::Eq(hn8::LoadU(du, words + s), hn8::Set(du, x)), bytes);
+    bits |= (bytes[0] & ((1u << kLanes8) - 1)) << s;
+  }
+  return bits;
+}
 // The words of the lanes in m, side by side; up to kLanes8 words are written. Returns how many count.
 HWY_INLINE int store_chosen(const uint32_t* words, Mask8 m, uint32_t* out) {
   const hn8::RebindToUnsigned<D8> du;
