@@ -35,6 +35,9 @@ std::vector<std::pair<std::string, std::string>> settings_words(const Settings& 
           {"culling", enum_text(s.culling)},
           {"samples", std::to_string(s.samples)},
           {"antialiasing", enum_text(s.antialiasing)},
+          {"normals", enum_text(s.normals)},
+          {"powers", enum_text(s.powers)},
+          {"shading_rate", enum_text(s.shading_rate)},
           {"time", number_text(s.time)},
           {"textures", s.textures ? "on" : "off"},
           {"bump", s.bump ? "on" : "off"}};

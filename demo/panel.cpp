@@ -116,6 +116,9 @@ bool draw_switches(WalkSession& session) {
   changed |= enum_row("filter", s.filter);
   changed |= enum_row("transparency", s.transparency);
   changed |= enum_row("culling", s.culling);
+  changed |= enum_row("normals", s.normals);
+  changed |= enum_row("powers", s.powers);
+  changed |= enum_row("shading rate", s.shading_rate);
   changed |= samples_row(s.samples);
   if (s.samples > 1) changed |= enum_row("antialiasing", s.antialiasing);
   label("maps");

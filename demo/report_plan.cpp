@@ -25,6 +25,9 @@ constexpr Switch kSwitches[] = {{"textures", "textures-off"},
                                 {"composite", "transparency-none"},
                                 {"primary rays", "visibility-ray"},
                                 {"lit vertices", "shading-gouraud"},
+                                {"shading rate 2x2", "shading-rate-2x2"},
+                                {"normals as interpolated", "normals-interpolated"},
+                                {"fast powers", "powers-fast"},
                                 {"anti-aliasing", "samples-multisample-4"}};
 
 // Stages that the frame's clocks know by themselves.

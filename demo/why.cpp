@@ -132,8 +132,12 @@ void print_level(size_t k, const PixelTrace& trace, const SlotTrace& slot, const
 
 // One surface of the pixel, from its primary ray to what comes back.
 void print_slot(const PixelTrace& trace, const SlotTrace& slot, const SceneData& scene) {
-  if (trace.samples > 1) {
-    std::printf("seen by %g of %d samples: %s\n", static_cast<double>(slot.weight) * trace.samples, trace.samples, primitive_text(slot.primitive).c_str());
+  const std::string seen = primitive_text(slot.primitive);
+  if (slot.quad)
+    std::printf("shaded once for 2x2 pixels: %s\n", seen.c_str());
+  else if (trace.samples > 1)
+    std::printf("seen by %g of %d samples: %s\n", static_cast<double>(slot.weight) * trace.samples, trace.samples, seen.c_str());
+  if (slot.quad || trace.samples > 1) {
     const double at[2] = {slot.position.x, slot.position.y};
     row(2, "shaded at", std::span<const double>(at));
   }
@@ -156,9 +160,8 @@ int verify(const Job& job, const PixelTrace& trace, int x, int y) {
   const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.settings.width) + static_cast<size_t>(x);
   const uint8_t* rgba = picture.color.rgba.data() + 4 * pixel;
   const float* radiance = picture.radiance.data() + 3 * pixel;
-  const uint32_t primitive = trace.slots[0].primitive;
   const bool equal = std::memcmp(rgba, trace.rgba, 4) == 0 && std::memcmp(radiance, trace.radiance, sizeof trace.radiance) == 0 &&
-                     picture.primitive[pixel] == primitive;
+                     picture.primitive[pixel] == trace.primitive;
   std::printf("rendered picture\n");
   text_row(2, "primitive", primitive_text(picture.primitive[pixel]));
   row(2, "radiance", std::span<const float>(radiance, 3));

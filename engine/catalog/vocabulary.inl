@@ -31,16 +31,24 @@ template <class F> SPANRAY_FORMULA Vec3<F> divide_or_zero(const Vec3<F>& a, F le
 
 // Cosines between the unit vectors n (shading normal), l (to the light), v (to the viewer), h (half-way between l and v).
 // n_h is in [0, 1], and 0 where there is no half-way direction.
-template <class F> struct Cosines { F n_l, n_v, n_h, l_h, l_v, shininess; };
+// fast_powers: the frame asks for them (Settings::powers).
+template <class F> struct Cosines {
+  F n_l, n_v, n_h, l_h, l_v, shininess;
+  bool fast_powers = false;
+};
+// n_h to the power of a highlight's exponent: base in [0, 1], exponent in [0, 1e4].
+template <class F> SPANRAY_FORMULA F highlight_power(const Cosines<F>& c, F base, F exponent) {
+  return c.fast_powers ? fast_pow_(base, exponent) : pow_(base, exponent);
+}
 
 // |l + v| below which l and v count as opposite: h is then mostly rounding error (HARD-CASES S2).
 inline constexpr float kMinHalfLength = 1e-5f;
 
 // All but the half-way vector, which only highlights need: n_h = l_h = 0.
 template <class F>
-SPANRAY_FORMULA Cosines<F> cosines(const Vec3<F>& n, const Vec3<F>& l, const Vec3<F>& v, F n_l, F shininess) {
+SPANRAY_FORMULA Cosines<F> cosines(const Vec3<F>& n, const Vec3<F>& l, const Vec3<F>& v, F n_l, F shininess, bool fast_powers = false) {
   const F zero = number<F>(0.0f);
-  return {n_l, dot(n, v), zero, zero, dot(l, v), shininess};
+  return {n_l, dot(n, v), zero, zero, dot(l, v), shininess, fast_powers};
 }
 template <class F>
 SPANRAY_FORMULA void add_half_way(Cosines<F>& c, const Vec3<F>& n, const Vec3<F>& l, const Vec3<F>& v) {

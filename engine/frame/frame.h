@@ -17,6 +17,8 @@ struct PlanFlags {
   bool motion = false, raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
+  bool raw_normals = false;   // interpolated normals stay as they are (Settings::normals), and some triangle has corners that differ
+  bool coarse_quads = false;  // render/coarse_quads.h
   uint32_t maps = 0;  // MaterialMaps that some material has
 };
 
@@ -86,7 +88,7 @@ struct FrameCounts {
   // Of opaque triangles, once for each tile and each sample of a pixel: listed, and hidden by what was drawn before. Samples that passed
   // the depth test; over the covered ones, that is the overdraw.
   uint64_t tile_triangles = 0, tile_triangles_hidden = 0, samples_passed = 0;
-  uint64_t pixels_covered = 0, surfaces_shaded = 0, fragments_translucent = 0;
+  uint64_t pixels_covered = 0, surfaces_shaded = 0, quads_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
   uint64_t vertices_lit = 0;
   uint64_t bvh_refits = 0, bvh_rebuilds = 0;  // trees that followed moving parts: of the second kind, those built anew

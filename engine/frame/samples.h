@@ -5,6 +5,7 @@
 namespace spanray {
 
 inline constexpr int kMaxSamples = 16;
+inline constexpr int kQuadPlace = 1 + kMaxSamples;  // the middle of a square of 2 x 2 pixels, seen from its upper left one
 inline constexpr int kPlaceMask = 31;  // an index that was masked by it may be read
 
 // A *place* is a position within a pixel: place 0 is the center, place 1 + s is sample s. One sample a pixel: only place 0.

@@ -26,6 +26,7 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
     counts.samples_passed += w->counts.samples_passed;
     counts.pixels_covered += w->counts.pixels_covered;
     counts.surfaces_shaded += w->counts.surfaces_shaded;
+    counts.quads_shaded += w->counts.quads_shaded;
     counts.fragments_translucent += w->counts.fragments_translucent;
     counts.rays_primary += w->counts.rays_primary;
     counts.rays_shadow += w->counts.rays_shadow;
@@ -48,6 +49,7 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"samples_passed", c.samples_passed},
                   {"pixels_covered", c.pixels_covered},
                   {"surfaces_shaded", c.surfaces_shaded},
+                  {"quads_shaded", c.quads_shaded},
                   {"fragments_translucent", c.fragments_translucent},
                   {"rays_primary", c.rays_primary},
                   {"rays_shadow", c.rays_shadow},

@@ -17,6 +17,7 @@ Frame make_frame(const SceneData& scene, const Camera& camera, const Settings& s
     frame.places = make_sample_places(settings.samples);
     if (settings.antialiasing == Antialiasing::kSupersample) frame.footprint = frame.places.spacing;
   }
+  if (plan.flags.coarse_quads) frame.places.x[kQuadPlace] = frame.places.y[kQuadPlace] = 1;
   frame.isa = resolve_isa(settings.isa);
   frame.parallel = &parallel;
   frame.material_flags = plan.material_flags.data();

@@ -60,6 +60,11 @@ class Lines {
   std::vector<PlanLine>& lines_;
 };
 
+bool is_smooth(const SceneData& scene, const Triangle& t) {
+  const auto normal = [&](int corner) { return scene.vertices[t.vertex[corner]].normal; };
+  return !std::equal(normal(0), normal(0) + 3, normal(1)) || !std::equal(normal(0), normal(0) + 3, normal(2));
+}
+
 }  // namespace
 
 SceneUse find_scene_use(const SceneData& scene) {
@@ -67,6 +72,7 @@ SceneUse find_scene_use(const SceneData& scene) {
   use.material_used.assign(scene.materials.size(), false);
   use.any_triangle = !scene.triangles.empty();
   for (const Triangle& t : scene.triangles) use.material_used[material_of(t)] = true;
+  use.any_smooth = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) { return is_smooth(scene, t); });
   return use;
 }
 
@@ -93,11 +99,18 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   const std::string shaded_once = s.antialiasing == Antialiasing::kSupersample ? ", each shaded" : ", shaded once a surface";
   f.samples = lines.add("anti-aliasing", s.samples > 1, "one sample a pixel", use.any_triangle,
                         std::to_string(s.samples) + " samples a pixel" + shaded_once, "the scene has no triangle");
+  const bool each_shaded = s.samples > 1 && s.antialiasing == Antialiasing::kSupersample;
+  f.coarse_quads = lines.add("shading rate 2x2", s.shading_rate == ShadingRate::k2x2 && !each_shaded,
+                             each_shaded ? "every sample is shaded" : "every pixel is shaded", use.any_triangle,
+                             "squares of 2 x 2 pixels that see one surface are shaded once", "the scene has no triangle");
   f.masks = lines.add("accept masks", true, "", w.masked, materials_text(w.masked, "masked: alpha mask or screen-door"),
                       "no material is masked");
   f.lit_vertices = lines.add("lit vertices", s.shading == Shading::kGouraud, "shading is not Gouraud", lit,
                              "Gouraud shading: vertices of visible triangles are lit once", "nothing is lit");
   f.maps = w.maps;
+  f.raw_normals = lines.add("normals as interpolated", s.normals == Normals::kInterpolated && s.shading == Shading::kPhong,
+                            s.shading == Shading::kPhong ? "normals are made unit vectors" : "only Phong shading interpolates normals",
+                            use.any_smooth, "normals between corners are shorter than 1", "each triangle has one normal");
   f.textures = lines.add("textures", s.textures, "switched off", w.textured, materials_text(w.textured, "with color or value maps"),
                          "no material has one");
   f.bump = lines.add("bump", s.bump && s.shading == Shading::kPhong, s.bump ? "only Phong shading bends normals" : "switched off",
@@ -109,6 +122,8 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
             lights == 0 ? "the scene has no light" : "the scene has no triangle");
   f.specular = lines.add("specular", true, "", lit ? w.specular : 0, materials_text(w.specular, "with a highlight"),
                          "no lit material has a highlight");
+  lines.add("fast powers", s.powers == Powers::kFast, "powers are exact", lit ? w.specular : 0, "highlights take powers of 12 bits",
+            "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");
   f.bounces = lines.add("bounce rays", s.reflections == Reflections::kRay && s.max_bounces > 0, "switched off", w.mirror,

@@ -18,6 +18,7 @@ struct Plan {
 struct SceneUse {
   std::vector<bool> material_used;  // by any triangle
   bool any_triangle = false;
+  bool any_smooth = false;          // triangle whose corners have different normals
 };
 SceneUse find_scene_use(const SceneData& scene);
 

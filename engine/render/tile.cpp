@@ -22,8 +22,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
   if (job.bins != nullptr) {
-    const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile);
-    w.pixel_order.from_rows(w.visible.primitive + row0 * kTileSize, kTileSize, level.primitive.data());
+    const int row0 = chunk.y0 - job.frame.grid.y0(chunk.tile), column0 = chunk.x0 - job.frame.grid.x0(chunk.tile);
+    w.pixel_order.from_rows(w.visible.primitive + row0 * kTileSize + column0, kTileSize, level.primitive.data());
   } else if (job.frame.plan.primary_rays) {
     make_primary_batch(job.frame, level.pixel.data(), level.slots, 0, level.rays);
     trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
@@ -75,8 +75,9 @@ void group_hits(TileWorker& w, Level& level) {
 void compact_hits(TileWorker& w, Level& level, bool primary) {
   if (primary) pick_hits(level);
   else group_hits(w, level);
-  level.hits.place.resize(level.place.empty() ? 0 : level.slot_of_hit.size());
-  for (size_t i = 0; i < level.hits.place.size(); ++i) level.hits.place[i] = level.place[level.slot_of_hit[i]];
+  const AlignedBuffer<uint32_t>& place = level.shading_place.empty() ? level.place : level.shading_place;
+  level.hits.place.resize(place.empty() ? 0 : level.slot_of_hit.size());
+  for (size_t i = 0; i < level.hits.place.size(); ++i) level.hits.place[i] = place[level.slot_of_hit[i]];
   level.hits.rays = primary ? nullptr : &level.rays;
 }
 
@@ -110,12 +111,25 @@ void pick_fragments(const Chunk& chunk, TileWorker& w) {
   FragmentList& list = w.chunk_fragments;
   for (size_t i = 0; i < w.fragments.pixel.size(); ++i) {
     const int x = static_cast<int>(w.fragments.pixel[i] & 0xffff), y = static_cast<int>(w.fragments.pixel[i] >> 16);
-    if (y < chunk.y0 || y >= chunk.y1) continue;
+    if (y < chunk.y0 || y >= chunk.y1 || x < chunk.x0 || x >= chunk.x0 + chunk.columns) continue;
     list.pixel.push_back(w.fragments.pixel[i]);
     list.ray.push_back(0);
     list.primitive.push_back(w.fragments.primitive[i]);
     w.fragment_slot.push_back(w.pixel_order.slot(x - chunk.x0, y - chunk.y0));
   }
+}
+
+// All fragments of a chunk before anything is shaded. Samples know theirs already.
+void find_fragments(const FrameJob& job, const Chunk& chunk, TileWorker& w, const Level& level) {
+  w.chunk_fragments.clear();
+  w.fragment_slot.clear();
+  if (!job.frame.plan.translucents) return;
+  if (job.bins == nullptr) {
+    w.clock.enter(TileStage::kBounceRays);
+    trace_layers(job, level.rays, level.primitive.data(), w.fragments);
+    w.counts.rays_translucent += static_cast<uint64_t>(level.slots);
+  }
+  pick_fragments(chunk, w);
 }
 
 // The translucent surfaces that the level's rays pass through, with their slots.
@@ -131,7 +145,7 @@ void trace_fragments(const FrameJob& job, TileWorker& w, Level& level, bool prim
 
 void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bool primary, const Chunk& chunk) {
   std::fill_n(level.transmittance.data(), level.slots, 1.0f);
-  if (!primary || level.place.empty()) {  // else find_sample_slots has found them
+  if (!primary || (level.place.empty() && level.shading_place.empty())) {  // else they have been found before
     w.chunk_fragments.clear();
     w.fragment_slot.clear();
     if (primary && job.bins != nullptr)
@@ -181,6 +195,17 @@ bool start_bounce(const FrameJob& job, TileWorker& w, Level& level, Level& next)
   return true;
 }
 
+// Color for all pixels of the quads; and what else somebody asks for, each pixel's own.
+void finish_quads(const FrameJob& job, TileWorker& w, Level& level) {
+  spread_quads(level);
+  if (!job.request.depth && !job.request.normal && !job.request.uv) return;
+  w.clock.enter(TileStage::kShade);
+  level.shading_place.clear();
+  compact_hits(w, level, true);
+  resolve_surfaces(job.frame, level.hits, level.surfaces);
+  for (int i = 0; i < level.hits.count; ++i) level.opaque_t[level.slot_of_hit[i]] = level.surfaces.t[i];
+}
+
 // One level after the other; then the bounces' radiance comes back, last first.
 void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
   size_t k = 0;
@@ -204,10 +229,8 @@ void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
 
 }  // namespace
 
-void render_tile(const FrameJob& job, int tile, TileWorker& w) {
-  const TileGrid& grid = job.frame.grid;
-  const bool samples = job.frame.places.count > 1;
-  if (samples) {
+void see_tile(const FrameJob& job, int tile, TileWorker& w) {
+  if (job.frame.places.count > 1) {
     rasterize_samples(job, tile, w);
   } else if (job.bins != nullptr) {
     w.clock.enter(TileStage::kRaster);
@@ -216,24 +239,39 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
     w.fragments.clear();
     if (job.frame.plan.translucents) rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.fragments);
   }
+}
+
+void start_chunk(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
+  const bool samples = job.frame.places.count > 1;
+  w.clock.enter(TileStage::kRaster);
+  level.resize(chunk.pixels(), job.frame.plan.translucents);
+  if (samples) {
+    find_sample_slots(job, chunk, w, level);
+  } else {
+    w.pixel_order.make(chunk.columns, chunk.y1 - chunk.y0);
+    w.pixel_order.name_pixels(pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(chunk.y0)), level.pixel.data());
+    find_primary_hits(job, chunk, w, level);
+  }
+  if (!job.frame.plan.coarse_quads) return;
+  if (!samples) find_fragments(job, chunk, w, level);
+  find_quads(job.frame, chunk, w, level);
+}
+
+void render_tile(const FrameJob& job, int tile, TileWorker& w) {
+  const TileGrid& grid = job.frame.grid;
+  see_tile(job, tile, w);
   if (w.levels.empty()) w.levels.push_back(std::make_unique<Level>());
   Level& level = *w.levels[0];
-  level.place.clear();
+  level.place.clear(), level.shading_place.clear(), level.quads.clear();
   const int rows = chunk_rows(job.frame);
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
-    w.clock.enter(TileStage::kRaster);
-    level.resize(chunk.pixels(), job.frame.plan.translucents);
-    if (samples) {
-      find_sample_slots(job, chunk, w, level);
-    } else {
-      w.pixel_order.make(chunk.columns, chunk.y1 - chunk.y0);
-      w.pixel_order.name_pixels(pack_pixel(static_cast<uint32_t>(chunk.x0), static_cast<uint32_t>(y0)), level.pixel.data());
-      find_primary_hits(job, chunk, w, level);
-    }
+    start_chunk(job, chunk, w, level);
     shade_levels(job, w, chunk);
     w.counts.surfaces_shaded += static_cast<uint64_t>(level.hits.count);
-    if (!samples) w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count);
+    w.counts.quads_shaded += level.quads.size();
+    if (level.place.empty()) w.counts.pixels_covered += static_cast<uint64_t>(level.hits.count) + 3 * level.quads.size();
+    if (!level.quads.empty()) finish_quads(job, w, level);
     write_chunk(job, w, level, chunk);
   }
   w.clock.stop();
@@ -249,7 +287,7 @@ void Level::resize(int n, bool translucents) {
 
 size_t Level::memory_bytes() const {
   size_t bytes = rays.memory_bytes() + pixel.bytes() + place.bytes() + primitive.bytes() + opaque_t.bytes() + transmittance.bytes() + parent.bytes() +
-                 slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes();
+                 slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes() + quads.capacity() * sizeof(Quad) + shading_place.bytes() + whole_slot.bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + weight[c].bytes();
   return bytes;
 }

@@ -5,6 +5,7 @@
 
 #include "frame/frame.h"
 #include "ray/bvh.h"
+#include "render/coarse_quads.h"
 #include "render/hit_order.h"
 #include "render/pixel_order.h"
 #include "render/stage_clock.h"
@@ -40,6 +41,10 @@ struct Level {
   HitBatch hits;                       // the slots that hit, compacted
   AlignedBuffer<uint32_t> slot_of_hit;
   SurfaceBatch surfaces;
+  // At shading rate 2x2 (render/coarse_quads.h), else empty: of level 0.
+  std::vector<Quad> quads;
+  AlignedBuffer<uint32_t> shading_place;  // by slot: where in its pixel it is shaded
+  AlignedBuffer<uint32_t> whole_slot;     // by pixel of the chunk
   int slots = 0;
 
   void resize(int n, bool translucents);
@@ -84,6 +89,10 @@ struct ChunkPixels {
   const float* opaque_t;
   const uint32_t* primitive;
 };
+
+// The steps of render_tile before anything is shaded, for `why`: a tile's visibility, then level 0 of a chunk.
+void see_tile(const FrameJob& job, int tile, TileWorker& worker);
+void start_chunk(const FrameJob& job, const Chunk& chunk, TileWorker& worker, Level& level);
 
 void render_tile(const FrameJob& job, int tile, TileWorker& worker);
 

@@ -31,20 +31,6 @@ float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
   return std::clamp(static_cast<float>(plane.depth0 + y * plane.dy + x * plane.dx), plane.min, plane.max);
 }
 
-// Translucent layers of the rays, those left out that lie behind what `opaque` names: visibility must be decided before samples are
-// grouped, as the rasterizer does.
-void trace_layers(const FrameJob& job, const SampleHits& seen, FragmentList& out) {
-  FragmentList all;
-  trace_all(job.frame, *job.translucent, seen.rays, HitsOnEdges::kOfOne, all);
-  out.clear();
-  const SamplePlaces& places = job.frame.places;
-  for (size_t i = 0; i < all.primitive.size(); ++i) {
-    const double x = (all.pixel[i] & 0xffff) + places.x[seen.rays.place], y = (all.pixel[i] >> 16) + places.y[seen.rays.place];
-    if (depth_at(job.frame, all.primitive[i], x, y) < depth_at(job.frame, seen.traced[all.ray[i]], x, y)) continue;
-    out.pixel.push_back(all.pixel[i]), out.ray.push_back(0), out.primitive.push_back(all.primitive[i]);
-  }
-}
-
 // The other engine: traces a chunk once a sample.
 void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
   w.clock.enter(TileStage::kRaster);
@@ -61,7 +47,7 @@ void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level
       std::copy_n(seen.traced.data() + (y - chunk.y0) * chunk.columns, chunk.columns,
                   seen.primitive.data() + s * kSamplePlane + tile_row(job.frame.grid, chunk, y));
     if (!job.frame.plan.translucents) continue;
-    trace_layers(job, seen, seen.fragments[s]);
+    trace_layers(job, seen.rays, seen.traced.data(), seen.fragments[s]);
     w.counts.rays_translucent += static_cast<uint64_t>(chunk.pixels());
   }
 }
@@ -201,6 +187,18 @@ void make_primary_batch(const Frame& frame, const uint32_t* pixel, int count, in
     for (int k = 0; k < 3; ++k) rays.origin[k][i] = origin[k], rays.direction[k][i] = direction[k];
     rays.t_max[i] = std::numeric_limits<float>::infinity();
     rays.pixel[i] = pixel[i];
+  }
+}
+
+void trace_layers(const FrameJob& job, const RayBatch& rays, const uint32_t* opaque, FragmentList& out) {
+  FragmentList all;
+  trace_all(job.frame, *job.translucent, rays, HitsOnEdges::kOfOne, all);
+  out.clear();
+  const SamplePlaces& places = job.frame.places;
+  for (size_t i = 0; i < all.primitive.size(); ++i) {
+    const double x = (all.pixel[i] & 0xffff) + places.x[rays.place], y = (all.pixel[i] >> 16) + places.y[rays.place];
+    if (depth_at(job.frame, all.primitive[i], x, y) < depth_at(job.frame, opaque[all.ray[i]], x, y)) continue;
+    out.pixel.push_back(all.pixel[i]), out.ray.push_back(0), out.primitive.push_back(all.primitive[i]);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/fp_env.h"
 #include "image/encode.h"
@@ -27,6 +28,7 @@ class Tracer {
  private:
   // What one surface of the pixel starts from. layers: translucent, if they are known already.
   struct Slot {
+    uint32_t pixel = 0;  // that is shaded: of a quad the upper left one
     int place = 0;
     float weight = 1;
     uint32_t primitive = kNoPrimitive;
@@ -34,13 +36,14 @@ class Tracer {
     bool layers_known = false;
   };
   std::vector<Slot> find_slots();
+  std::optional<Slot> find_quad(uint32_t& seen);
   SlotTrace trace_slot(const Slot& slot);
   uint32_t raster_hit(int place, FragmentList& fragments, float& depth);
   uint32_t ray_hit(int place) const;
   uint32_t pixel() const { return pack_pixel(static_cast<uint32_t>(x_), static_cast<uint32_t>(y_)); }
   int tile() const { return y_ / kTileSize * frame_.grid.columns + x_ / kTileSize; }
-  void make_primary_ray(int place, RayBatch& rays) const;
-  void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, int place) const;
+  void make_primary_ray(uint32_t pixel, int place, RayBatch& rays) const;
+  void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, const Slot& slot) const;
   SurfaceTrace shade(const HitBatch& hits, SurfaceBatch& surfaces, bool primary) const {
     return trace_surface(frame_, opaque_, hits, primary ? lit_vertices_.get() : nullptr, surfaces);
   }
@@ -87,28 +90,25 @@ uint32_t Tracer::raster_hit(int place, FragmentList& fragments, float& depth) {
   return visible->primitive[i];
 }
 
-void Tracer::make_primary_ray(int place, RayBatch& rays) const {
-  const uint32_t name = pixel();
-  make_primary_batch(frame_, &name, 1, place, rays);
-}
+void Tracer::make_primary_ray(uint32_t pixel, int place, RayBatch& rays) const { make_primary_batch(frame_, &pixel, 1, place, rays); }
 
 uint32_t Tracer::ray_hit(int place) const {
   RayBatch rays;
-  make_primary_ray(place, rays);
+  make_primary_ray(pixel(), place, rays);
   AlignedBuffer<uint32_t> primitive;
   primitive.assign(kLanePadding, kNoPrimitive);
   trace_closest(frame_, opaque_, rays, primitive.data());
   return primitive[0];
 }
 
-void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, int place) const {
+void Tracer::make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, const Slot& slot) const {
   hits.resize(primitive == kNoPrimitive ? 0 : 1, true);
   hits.rays = rays;
   if (hits.count == 0) return;
-  hits.pixel[0] = pixel();
+  hits.pixel[0] = slot.pixel;
   hits.ray[0] = 0;
   hits.primitive[0] = primitive;
-  if (rays == nullptr && frame_.places.count > 1) hits.place.assign(1, static_cast<uint32_t>(place));
+  if (rays == nullptr && slot.place != 0) hits.place.assign(1, static_cast<uint32_t>(slot.place));
 }
 
 void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bool primary) {
@@ -124,7 +124,7 @@ void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bo
   for (size_t i = 0; i < list.primitive.size(); ++i) {
     HitBatch hits;
     SurfaceBatch surfaces;
-    make_hits(hits, primary ? nullptr : &rays, list.primitive[i], start.place);
+    make_hits(hits, primary ? nullptr : &rays, list.primitive[i], start);
     level.layers.push_back(shade(hits, surfaces, primary));
   }
   // Shown in the order of blending; blended by the renderer's own function.
@@ -160,11 +160,34 @@ bool Tracer::bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch
   return true;
 }
 
+// The pixel's quad, if it is shaded in one. seen: the pixel's own primitive.
+std::optional<Tracer::Slot> Tracer::find_quad(uint32_t& seen) {
+  const int x0 = x_ & ~1, y0 = y_ & ~1;
+  if (!frame_.plan.coarse_quads || x0 + 1 >= frame_.grid.width || y0 + 1 >= frame_.grid.height) return std::nullopt;
+  Framebuffer out;
+  const FrameRequest request;
+  const FrameJob job{frame_, frame_.plan.raster ? &bins_ : nullptr, &opaque_, &translucent_, nullptr, out, request};
+  const auto worker = std::make_unique<TileWorker>();
+  Level level;
+  parallel_.for_each(1, [&](size_t, int) {
+    see_tile(job, tile(), *worker);
+    start_chunk(job, Chunk{tile(), x0, 2, y0, y0 + 2}, *worker, level);
+  });
+  if (level.quads.empty()) return std::nullopt;
+  const Quad& quad = level.quads[0];
+  seen = quad.primitive[2 * (y_ - y0) + x_ - x0];
+  Slot slot;
+  slot.pixel = level.pixel[quad.slot[0]], slot.place = kQuadPlace, slot.primitive = level.primitive[quad.slot[0]];
+  slot.layers_known = true;
+  return slot;
+}
+
 std::vector<Tracer::Slot> Tracer::find_slots() {
   const bool by_ray = frame_.settings.visibility == Visibility::kRay;
   std::vector<Slot> slots;
   if (frame_.places.count == 1) {
     Slot& slot = slots.emplace_back();
+    slot.pixel = pixel();
     float depth;
     const uint32_t rasterized = raster_hit(0, slot.layers, depth);
     slot.primitive = by_ray ? ray_hit(0) : rasterized;
@@ -183,6 +206,7 @@ std::vector<Tracer::Slot> Tracer::find_slots() {
   });
   for (size_t i = 0; i < static_cast<size_t>(level.slots); ++i) {
     Slot& slot = slots.emplace_back();
+    slot.pixel = pixel();
     slot.place = static_cast<int>(level.place[i]);
     slot.weight = level.weight[0][i];
     slot.primitive = level.primitive[i];
@@ -197,23 +221,25 @@ SlotTrace Tracer::trace_slot(const Slot& slot) {
   SlotTrace trace;
   const PrimaryRays& p = frame_.primary;
   trace.weight = slot.weight;
-  trace.position = {x_ + frame_.places.x[slot.place], y_ + frame_.places.y[slot.place]};
+  trace.quad = slot.place == kQuadPlace;
+  trace.position = {(slot.pixel & 0xffff) + frame_.places.x[slot.place], (slot.pixel >> 16) + frame_.places.y[slot.place]};
   trace.direction = p.corner + p.step_x * trace.position.x + p.step_y * trace.position.y;
   FragmentList unused;
-  trace.raster_primitive = raster_hit(slot.place, unused, trace.raster_depth);
-  trace.ray_primitive = ray_hit(slot.place);
+  const int place = trace.quad ? 0 : slot.place;
+  trace.raster_primitive = raster_hit(place, unused, trace.raster_depth);
+  trace.ray_primitive = ray_hit(place);
   trace.primitive = slot.primitive;
 
   std::vector<std::unique_ptr<RayBatch>> rays;
   rays.push_back(std::make_unique<RayBatch>());
-  make_primary_ray(slot.place, *rays[0]);
+  make_primary_ray(slot.pixel, slot.place, *rays[0]);
   uint32_t primitive = slot.primitive;
   for (size_t k = 0;; ++k) {
     const bool primary = k == 0;
     if (primary) trace.levels.emplace_back();
     HitBatch hits;
     SurfaceBatch surfaces;
-    make_hits(hits, primary ? nullptr : rays[k].get(), primitive, slot.place);
+    make_hits(hits, primary ? nullptr : rays[k].get(), primitive, slot);
     LevelTrace& level = trace.levels[k];
     level.surface = shade(hits, surfaces, primary);
     for (int c = 0; c < 3; ++c)
@@ -241,7 +267,12 @@ PixelTrace Tracer::run() {
   trace.eye = frame_.primary.eye;
   trace.by_ray = frame_.settings.visibility == Visibility::kRay;
   trace.samples = frame_.places.count;
-  for (const Slot& slot : find_slots()) trace.slots.push_back(trace_slot(slot));
+  if (const std::optional<Slot> quad = find_quad(trace.primitive)) {
+    trace.slots.push_back(trace_slot(*quad));
+  } else {
+    for (const Slot& slot : find_slots()) trace.slots.push_back(trace_slot(slot));
+    trace.primitive = trace.slots[0].primitive;
+  }
   Radiance out;
   for (int c = 0; c < 3; ++c) {
     float sum = trace.samples == 1 ? trace.slots[0].levels[0].radiance[c] : 0.0f;

@@ -47,9 +47,10 @@ struct LevelTrace {
 // What the pixel sees: one of these, or with several samples a pixel one for each slot of render/tile_samples.h.
 struct SlotTrace {
   float weight = 1;                         // of the pixel's samples
+  bool quad = false;                        // shaded once for 2 x 2 pixels (Settings::shading_rate)
   glm::dvec2 position{0};                   // in the picture, where it is shaded
   glm::dvec3 direction{0};                  // the exact primary ray through it
-  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;  // what each engine sees there
+  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;  // what each engine sees there; of a quad, in the pixel itself
   uint32_t primitive = 0xffffffffu;         // the one that is shaded
   float raster_depth = 0;                   // of the rasterizer's tile
   std::vector<LevelTrace> levels;
@@ -59,6 +60,7 @@ struct PixelTrace {
   glm::dvec3 eye{0};
   bool by_ray = false;                      // settings.visibility
   int samples = 1;
+  uint32_t primitive = 0xffffffffu;         // that the pixel, or its sample 0, sees
   std::vector<SlotTrace> slots;             // first what sample 0 sees
   float radiance[3] = {};
   uint8_t rgba[4] = {};

@@ -109,7 +109,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
   TomlTable t(*node->as_table(), "[technique]",
               {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling", "max_bounces",
-               "samples", "antialiasing", "textures", "bump", "width", "height", "time"},
+               "samples", "antialiasing", "normals", "powers", "shading_rate", "textures", "bump", "width", "height", "time"},
               errors);
   t.word("shading", &s.shading);
   t.word("shadows", &s.shadows);
@@ -124,6 +124,9 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
     else t.fail("samples", "must be 1, 4, 8 or 16");
   }
   t.word("antialiasing", &s.antialiasing);
+  t.word("normals", &s.normals);
+  t.word("powers", &s.powers);
+  t.word("shading_rate", &s.shading_rate);
   t.boolean("textures", &s.textures);
   t.boolean("bump", &s.bump);
   t.number("time", {-kMostSeconds, kMostSeconds}, &s.time);

@@ -21,6 +21,9 @@ constexpr EnumName<Transparency> kTransparencyNames[] = {{Transparency::kScene, 
 constexpr EnumName<Culling> kCullingNames[] = {{Culling::kNone, "none"}, {Culling::kBack, "back"}};
 constexpr EnumName<Antialiasing> kAntialiasingNames[] = {{Antialiasing::kMultisample, "multisample"},
                                                          {Antialiasing::kSupersample, "supersample"}};
+constexpr EnumName<Normals> kNormalsNames[] = {{Normals::kInterpolated, "interpolated"}, {Normals::kRenormalized, "renormalized"}};
+constexpr EnumName<Powers> kPowersNames[] = {{Powers::kFast, "fast"}, {Powers::kExact, "exact"}};
+constexpr EnumName<ShadingRate> kShadingRateNames[] = {{ShadingRate::k2x2, "2x2"}, {ShadingRate::k1x1, "1x1"}};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -76,6 +79,18 @@ std::span<const EnumName<Culling>> enum_names<Culling>() {
 template <>
 std::span<const EnumName<Antialiasing>> enum_names<Antialiasing>() {
   return kAntialiasingNames;
+}
+template <>
+std::span<const EnumName<Normals>> enum_names<Normals>() {
+  return kNormalsNames;
+}
+template <>
+std::span<const EnumName<Powers>> enum_names<Powers>() {
+  return kPowersNames;
+}
+template <>
+std::span<const EnumName<ShadingRate>> enum_names<ShadingRate>() {
+  return kShadingRateNames;
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {

@@ -17,13 +17,14 @@ struct Corner { V3 position, normal, view; F32 shininess; I32 model; };
 // Attenuation times reflectance times cosine of one light at corners, for the side of the surface that the light is on, with the
 // sign of n.l; textures multiply Kd and Ks later, per pixel, but shininess is the material's own.
 template <class Kind>
-HWY_INLINE Reflected light_corner(const LightLanes& light, const Corner& corner, Mask active, bool specular) {
+HWY_INLINE Reflected light_corner(const Frame& frame, const LightLanes& light, const Corner& corner, Mask active) {
   const Incidence incidence = Kind::incidence(light, corner.position);
   const F32 signed_n_l = formula::dot(corner.normal, incidence.direction);
   const V3 n = select3(signed_n_l < F32::zero(), -corner.normal, corner.normal);
   const F32 n_l = abs_(signed_n_l);
   active = active & (n_l > F32::zero());
-  Cosines c = formula::cosines(n, incidence.direction, corner.view, n_l, corner.shininess);
+  Cosines c = formula::cosines(n, incidence.direction, corner.view, n_l, corner.shininess, frame.settings.powers == Powers::kFast);
+  const bool specular = frame.plan.specular;
   if (specular) formula::add_half_way(c, n, incidence.direction, corner.view);
   const Reflected r = reflect(corner.model, active, specular, c);
   return {copysign_(r.diffuse * incidence.attenuation, signed_n_l), copysign_(r.specular * incidence.attenuation, signed_n_l)};
@@ -45,7 +46,7 @@ void light_vertices(const Frame& frame, const Light& light, const uint32_t* vert
     Corner corner = {vertex_position(scene, v), vertex_normal(scene, v), {}, material_shininess(scene, m),
                      reflectance_models(scene, m)};
     corner.view = view_from(eye, corner.position);
-    const Reflected r = light_corner<Kind>(lanes, corner, active, frame.plan.specular);
+    const Reflected r = light_corner<Kind>(frame, lanes, corner, active);
     float diffuse[kLanes], specular[kLanes];
     r.diffuse.store(diffuse);
     r.specular.store(specular);
@@ -90,7 +91,7 @@ void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch
       } else {
         corner.position = vertex_position(scene, v);
         corner.view = view_from(viewer, corner.position);
-        at[j] = light_corner<Kind>(lanes, corner, active, specular);
+        at[j] = light_corner<Kind>(frame, lanes, corner, active);
       }
       normals = normals + corner.normal;
     }

@@ -61,7 +61,7 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
   const SceneData& scene = *frame.scene;
   const Light& light = light_of(frame, light_index);
   const LightLanes lanes = broadcast_light(light);
-  const bool flat = frame.settings.shading == Shading::kFlat;
+  const bool flat = frame.settings.shading == Shading::kFlat, fast_powers = frame.settings.powers == Powers::kFast;
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, lit);
     if (!any(active)) continue;
@@ -82,7 +82,7 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
       const F32 brightest = max_(max_(F32::load(s.specular[0] + i), F32::load(s.specular[1] + i)), F32::load(s.specular[2] + i));
       specular = any(active & (brightest > F32::zero()));  // 0 * specular adds nothing: the bits are the same
     }
-    Cosines c = formula::cosines(site.normal, incidence.direction, site.view, n_l, F32::load(s.shininess + i));
+    Cosines c = formula::cosines(site.normal, incidence.direction, site.view, n_l, F32::load(s.shininess + i), fast_powers);
     if (specular) formula::add_half_way(c, site.normal, incidence.direction, site.view);
     const I32 material = select(active, I32::load(s.material + i), I32::zero());
     Reflected factor = reflect(reflectance_models(scene, material), active, specular, c);

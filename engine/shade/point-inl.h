@@ -99,12 +99,16 @@ HWY_INLINE CornerNormals corner_normals(const SceneData& scene, const TriangleLa
   return {select(away, -n.n0, n.n0), select(away, -n.d1, n.d1), select(away, -n.d2, n.d2)};
 }
 
-// Of a blend of corner normals: unit; the geometric normal where opposed corners leave nothing.
-HWY_INLINE V3f unit_normal(const V3f& blend, const V3f& geometric) { return unit_or(blend, 1e-6f, geometric); }
+// Of a blend of corner normals: unit, or as it is (plan.raw_normals); the geometric normal where opposed corners leave nothing.
+inline constexpr float kLeastNormalSquare = 1e-6f;
+HWY_INLINE V3f normal_of_blend(const Frame& frame, const V3f& blend, const V3f& geometric) {
+  if (!frame.plan.raw_normals) return unit_or(blend, kLeastNormalSquare, geometric);
+  return select(dot(blend, blend) > f32(kLeastNormalSquare), blend, geometric);
+}
 
-HWY_INLINE V3f interpolated_normal(const CornerNormals& n, F32 b1, F32 b2, const V3f& geometric) {
+HWY_INLINE V3f interpolated_normal(const Frame& frame, const CornerNormals& n, F32 b1, F32 b2, const V3f& geometric) {
   const auto blend = [&](F32 n0, F32 d1, F32 d2) HWY_ATTR { return mul_add(b2, d2, mul_add(b1, d1, n0)); };
-  return unit_normal({blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)}, geometric);
+  return normal_of_blend(frame, {blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)}, geometric);
 }
 
 }  // namespace surface_lanes

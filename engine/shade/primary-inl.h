@@ -108,7 +108,7 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   good = good & (dot(point.geometric, point.geometric) > zero);
   point.normal = point.geometric;
   if (frame.settings.shading != Shading::kFlat)
-    point.normal = unit_normal(plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
+    point.normal = normal_of_blend(frame, plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
   const F32 single_x = to_f32(step_x), single_y = to_f32(step_y);
   if (frame.plan.bounces) {
     const F32 side = f32(static_cast<float>(frame.footprint));

@@ -16,6 +16,14 @@ enum class Transparency { kScene, kNone, kAlpha, kScreenDoor };
 enum class Culling { kNone, kBack };
 // What is shaded where a pixel has several samples: each distinct surface that they see, once, or every sample on its own.
 enum class Antialiasing { kMultisample, kSupersample };
+// Normals between the corners of a triangle: blended, hence shorter than 1 where corners differ, or made unit vectors again, as Phong 1975 has
+// them. Shorter ones darken highlights and bend reflections within coarse triangles.
+enum class Normals { kInterpolated, kRenormalized };
+// The power in highlights: its error bounds stand in math/elementary-inl.h (pow_, fast_pow_).
+enum class Powers { kFast, kExact };
+// Pixels shaded at once. k2x2: an aligned square of 2 x 2 pixels is shaded once, with its shadow and mirror rays, where all four see one
+// surface (render/coarse_quads.h); edges, layers of translucent surfaces, ids and depth keep every pixel.
+enum class ShadingRate { k2x2, k1x1 };
 
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
 constexpr bool sample_count_ok(int count) {
@@ -41,6 +49,9 @@ struct Settings {
   Culling culling = Culling::kNone;
   int samples = 1;  // a pixel, one of kSampleCounts, in the standard patterns of Direct3D 11 (docs/decisions/0007-samples.md)
   Antialiasing antialiasing = Antialiasing::kMultisample;  // only with more than one sample
+  Normals normals = Normals::kRenormalized;  // only with Phong shading
+  Powers powers = Powers::kExact;
+  ShadingRate shading_rate = ShadingRate::k1x1;  // 2x2 only where a pixel is shaded once: not when supersampling
   double time = 0;  // seconds: where moving parts stand (docs of scene files: [[moving]]); nothing else depends on it
   bool textures = true;
   bool bump = true;

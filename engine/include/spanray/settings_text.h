@@ -26,6 +26,9 @@ template <> std::span<const EnumName<Filter>> enum_names<Filter>();
 template <> std::span<const EnumName<Transparency>> enum_names<Transparency>();
 template <> std::span<const EnumName<Culling>> enum_names<Culling>();
 template <> std::span<const EnumName<Antialiasing>> enum_names<Antialiasing>();
+template <> std::span<const EnumName<Normals>> enum_names<Normals>();
+template <> std::span<const EnumName<Powers>> enum_names<Powers>();
+template <> std::span<const EnumName<ShadingRate>> enum_names<ShadingRate>();
 
 // The value named by text, exactly as written in the table.
 template <class E> std::optional<E> enum_from_text(std::string_view text) {
