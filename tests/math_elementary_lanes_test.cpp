@@ -25,6 +25,9 @@ void log2_kernel(const float* a, const float*, float* out, size_t n) {
 void pow_kernel(const float* a, const float* b, float* out, size_t n) {
   for (size_t i = 0; i < n; i += kLanes) pow_(F32::load(a + i), F32::load(b + i)).store(out + i);
 }
+void fast_pow_kernel(const float* a, const float* b, float* out, size_t n) {
+  for (size_t i = 0; i < n; i += kLanes) fast_pow_(F32::load(a + i), F32::load(b + i)).store(out + i);
+}
 }  // namespace HWY_NAMESPACE
 }  // namespace spanray
 HWY_AFTER_NAMESPACE();
@@ -36,6 +39,7 @@ using Fn = void (*)(const float*, const float*, float*, size_t);
 const Fn kExp2[kIsaCount] = SPANRAY_KERNEL_TABLE(exp2_kernel);
 const Fn kLog2[kIsaCount] = SPANRAY_KERNEL_TABLE(log2_kernel);
 const Fn kPow[kIsaCount] = SPANRAY_KERNEL_TABLE(pow_kernel);
+const Fn kFastPow[kIsaCount] = SPANRAY_KERNEL_TABLE(fast_pow_kernel);
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -146,6 +150,36 @@ TEST(ElementaryLanes, S1_PowOfSpecularWithinBound) {
   }
   for (uint32_t i = 0; i < 200; ++i) t.add(from_bits(0x3f800008u - i), 1e4f), t.add(from_bits(0x3f800008u - i), 1.0f);
   EXPECT_LE(worst_error(kPow, t, exact_pow, pow_ulp), 1);
+}
+
+// Relative error, as documented, of results that are not tiny; tiny ones stay so, and no result is subnormal.
+TEST(ElementaryLanes, FastPowWithinBound) {
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<float> unit(0, 1), log_exponent(-3, 4);
+  Table t;
+  for (int i = 0; i < 60000; ++i) {
+    const float n = std::pow(10.0f, log_exponent(rng));
+    t.add(unit(rng), n), t.add(1.0f - unit(rng) * 50.0f / (n + 50.0f), n), t.add(from_bits(0x3f800000u - random_bits(rng) % 64), n);
+  }
+  for (const float x : {0.0f, from_bits(1), 0x1p-126f, 0x1.6a09e6p-1f, 1.0f})  // subnormal; beside sqrt(1/2)
+    for (const float n : {0.0f, 1e-3f, 1.0f, 1e4f}) t.add(x, n);
+  t.pad();
+  const std::vector<float> got = run_everywhere(kFastPow, t);
+  double worst = 0;
+  for (size_t i = 0; i < got.size(); ++i) {
+    const long double want = exact_pow(t.a[i], t.b[i]);
+    ASSERT_GE(got[i], 0x1p-65f) << t.a[i] << "^" << t.b[i];
+    if (want < 0x1p-64L || t.a[i] < 0x1p-126f) {
+      const long double most = std::max(0x1p-63L, 1.01L * exact_pow(std::max(t.a[i], 0x1p-126f), t.b[i]));
+      ASSERT_LE(got[i], most) << t.a[i] << "^" << t.b[i];
+      continue;
+    }
+    const long double allowed = std::exp2(-9.1L) * (1 - std::log2(want) / 7);
+    worst = std::max(worst, static_cast<double>(std::fabs(got[i] / want - 1) / allowed));
+  }
+  std::printf("fast_pow_: worst relative error %.4f of the bound\n", worst);
+  EXPECT_LE(worst, 1);
+  EXPECT_GE(worst, 0.5) << "the bound is looser than it need be";
 }
 
 TEST(ElementaryLanes, PowOfAnyFiniteFloatsWithinBound) {

@@ -150,6 +150,9 @@ TEST_F(ReportKnobs, KnobsThatTheSceneHasNoUseForSayWhy) {
   EXPECT_EQ(absent["shadows"], "");
   EXPECT_EQ(absent["samples"], "");
   EXPECT_EQ(absent["reflections"], "no material mirrors");
+  EXPECT_EQ(absent["powers"], "no lit material has a highlight");
+  EXPECT_EQ(absent["normals"], "each triangle has one normal");
+  EXPECT_EQ(absent["shading-rate"], "");
   for (const char* name : {"filter", "textures", "bump", "transparency"})
     EXPECT_NE(absent[name].find("no material"), std::string::npos) << name;
 }

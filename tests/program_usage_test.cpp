@@ -58,6 +58,9 @@ TEST_F(ProgramUsage, WrongUsageNamesItselfAndExitsWith2) {
   expect_usage({"rendr", scene_}, {"rendr", "render"});
   expect_usage({"render", scene_, "--out", "a.png", "--shadws", "ray"}, {"--shadws", "--shadows"});
   expect_usage({"render", scene_, "--out", "a.png", "--shading", "phnog"}, {"--shading", "phnog", "flat|gouraud|phong"});
+  expect_usage({"render", scene_, "--out", "a.png", "--normals", "interpoled"}, {"--normals", "did you mean 'interpolated'"});
+  expect_usage({"render", scene_, "--out", "a.png", "--powers", "exakt"}, {"--powers", "fast|exact"});
+  expect_usage({"render", scene_, "--out", "a.png", "--shading-rate", "4x4"}, {"--shading-rate", "2x2|1x1"});
   expect_usage({"render", scene_, "more", "--out", "a.png"}, {"more"});
   expect_usage({"render"}, {"SCENE"});
   expect_usage({"render", scene_}, {"nothing to do"});

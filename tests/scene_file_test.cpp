@@ -61,6 +61,9 @@ shadows = "none"
 reflections = "none"
 visibility = "ray"
 filter = "bilinear"
+normals = "interpolated"
+powers = "fast"
+shading_rate = "2x2"
 transparency = "screen-door"
 culling = "back"
 max_bounces = 7
@@ -106,6 +109,9 @@ opacity = 1
   EXPECT_EQ(s.settings.filter, Filter::kBilinear);
   EXPECT_EQ(s.settings.transparency, Transparency::kScreenDoor);
   EXPECT_EQ(s.settings.culling, Culling::kBack);
+  EXPECT_EQ(s.settings.normals, Normals::kInterpolated);
+  EXPECT_EQ(s.settings.powers, Powers::kFast);
+  EXPECT_EQ(s.settings.shading_rate, ShadingRate::k2x2);
   EXPECT_EQ(s.settings.max_bounces, 7);
   EXPECT_FALSE(s.settings.textures || s.settings.bump);
   EXPECT_EQ(s.settings.width * 1000 + s.settings.height, 64048);
@@ -166,6 +172,10 @@ TEST_F(SceneFileTest, EveryMistakeIsNamedWithItsLine) {
       {obj + "[[path]]\ntime = 1\neye = [0,0,5]\ntarget = [0,0,0]\n[[path]]\ntime = 1.0\neye = [0,0,5]\ntarget = [0,0,0]\n", 7,
        "greater"},
       {obj + "[technique]\nshading = \"pohng\"\n", 3, "did you mean 'phong'"},
+      {obj + "[technique]\nnormals = \"renormalised\"\n", 3, "did you mean 'renormalized'"},
+      {obj + "[technique]\npowers = \"quick\"\n", 3, "fast, exact"},
+      {obj + "[technique]\nshading_rate = 2\n", 3, "must be a string, not an integer"},
+      {obj + "[technique]\nshading_rate = \"4x4\"\n", 3, "2x2, 1x1"},
       {obj + "[technique]\nshadows = true\n", 3, "must be a string, not a boolean"},
       {obj + "[technique]\nmax_bounces = 65\n", 3, "0 to 64"},
       {obj + "[technique]\nmax_bounces = 1.5\n", 3, "must be an integer, not a number"},

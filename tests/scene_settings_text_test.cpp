@@ -27,11 +27,17 @@ TEST(SettingsText, EveryValueHasOneWordAndTheWordGivesItBack) {
   check_round_trip<Transparency>(4);
   check_round_trip<Culling>(2);
   check_round_trip<Antialiasing>(2);
+  check_round_trip<Normals>(2);
+  check_round_trip<Powers>(2);
+  check_round_trip<ShadingRate>(2);
 }
 
 TEST(SettingsText, WordsOfTheCommandLine) {
   EXPECT_EQ(enum_choices<Shading>(), "flat|gouraud|phong");
   EXPECT_EQ(enum_choices<Transparency>(), "scene|none|alpha|screen-door");
+  EXPECT_EQ(enum_choices<Normals>(), "interpolated|renormalized");
+  EXPECT_EQ(enum_choices<Powers>(), "fast|exact");
+  EXPECT_EQ(enum_choices<ShadingRate>(), "2x2|1x1");
   EXPECT_EQ(enum_from_text<Transparency>("screen-door"), Transparency::kScreenDoor);
   EXPECT_FALSE(enum_from_text<Shading>("Phong").has_value());
 }

@@ -36,7 +36,7 @@ template <class F> struct Cosines {
   F n_l, n_v, n_h, l_h, l_v, shininess;
   bool fast_powers = false;
 };
-// n_h to the power of a highlight's exponent: base in [0, 1], exponent in [0, 1e4].
+// base^exponent of a highlight, as the frame asks for it: base in [0, 1], exponent in [0, 1e4].
 template <class F> SPANRAY_FORMULA F highlight_power(const Cosines<F>& c, F base, F exponent) {
   return c.fast_powers ? fast_pow_(base, exponent) : pow_(base, exponent);
 }

@@ -122,7 +122,7 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
             lights == 0 ? "the scene has no light" : "the scene has no triangle");
   f.specular = lines.add("specular", true, "", lit ? w.specular : 0, materials_text(w.specular, "with a highlight"),
                          "no lit material has a highlight");
-  lines.add("fast powers", s.powers == Powers::kFast, "powers are exact", lit ? w.specular : 0, "highlights take powers of 12 bits",
+  lines.add("fast powers", s.powers == Powers::kFast, "powers are exact", lit ? w.specular : 0, "highlights take powers of 9 bits",
             "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");

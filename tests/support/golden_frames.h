@@ -53,6 +53,16 @@ inline std::vector<GoldenFrame> golden_frames() {
     samples(16, Antialiasing::kMultisample)(s);
     s.visibility = Visibility::kRay;
   });
+  add("spheres_quads", "spheres.toml", 0, [](Settings& s) { s.shading_rate = ShadingRate::k2x2; });
+  add("glass_quads_rays", "glass.toml", 0, [](Settings& s) {
+    s.width = 197, s.height = 131, s.visibility = Visibility::kRay, s.shading_rate = ShadingRate::k2x2;
+  });
+  add("hall_quads_samples", "hall.toml", 0, [=](Settings& s) {
+    samples(4, Antialiasing::kMultisample)(s);
+    s.shading_rate = ShadingRate::k2x2;
+  });
+  add("spheres_fast", "spheres.toml", 0, [](Settings& s) { s.normals = Normals::kInterpolated, s.powers = Powers::kFast; });
+  add("columns_fast_gouraud", "columns.toml", 0, [](Settings& s) { s.shading = Shading::kGouraud, s.powers = Powers::kFast; });
   return frames;
 }
 
