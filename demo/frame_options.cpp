@@ -120,7 +120,7 @@ void FrameOptions::add_to(CLI::App& command) {
   add_word(command, "--antialiasing", &Settings::antialiasing, "With more than one sample: shade once a surface, or every sample");
   add_word(command, "--normals", &Settings::normals, "Interpolated normals: made unit vectors again, or not (Phong shading)");
   add_word(command, "--powers", &Settings::powers, "The power in highlights");
-  add_word(command, "--shading-rate", &Settings::shading_rate, "Pixels shaded at once where they see one surface; edges keep every pixel");
+  add_word(command, "--shading-rate", &Settings::shading_rate, "Pixels shaded at once where they see one surface");
   add_switch(command, "--no-textures", &Settings::textures, "Material colors only");
   add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
 }

@@ -108,7 +108,8 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
   all.shading = Shading::kPhong, all.shadows = Shadows::kRay, all.reflections = Reflections::kRay,
   all.max_bounces = std::max(1, settings.max_bounces);
   all.transparency = Transparency::kScene, all.textures = all.bump = true;
-  all.normals = Normals::kInterpolated, all.powers = Powers::kFast, all.shading_rate = ShadingRate::k2x2;  // stages of their own
+  // These are stages where they are cheap.
+  all.normals = Normals::kInterpolated, all.powers = Powers::kFast, all.shading_rate = ShadingRate::k2x2;
   all.antialiasing = Antialiasing::kMultisample;
   const std::vector<PlanLine> plan = plan_frame(scene, all);
   std::vector<Knob> knobs;
@@ -123,8 +124,8 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
   add_knob("filter", "how textures are read", words_of(&Settings::filter), "trilinear", absent(plan, {"textures", "bump"}));
   add_knob("shading", "where light is computed: once a face, at its corners, in every pixel", words_of(&Settings::shading),
            "phong", absent(plan, {"direct light"}));
-  add_knob("normals", "normals between the corners of a triangle: as interpolated, or made unit vectors again", words_of(&Settings::normals),
-           "renormalized", absent(plan, {"normals as interpolated"}));
+  add_knob("normals", "normals between the corners of a triangle: as interpolated, or made unit vectors again",
+           words_of(&Settings::normals), "renormalized", absent(plan, {"normals as interpolated"}));
   add_knob("powers", "the power in highlights", words_of(&Settings::powers), "exact", absent(plan, {"fast powers"}));
   add_knob("shading-rate", "squares of 2x2 pixels that see one surface: shaded once, with their rays, or pixel by pixel",
            words_of(&Settings::shading_rate), "1x1", absent(plan, {"shading rate 2x2"}));

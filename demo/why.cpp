@@ -136,7 +136,8 @@ void print_slot(const PixelTrace& trace, const SlotTrace& slot, const SceneData&
   if (slot.quad)
     std::printf("shaded once for 2x2 pixels: %s\n", seen.c_str());
   else if (trace.samples > 1)
-    std::printf("seen by %g of %d samples: %s\n", static_cast<double>(slot.weight) * trace.samples, trace.samples, seen.c_str());
+    std::printf("seen by %g of %d samples: %s\n", static_cast<double>(slot.weight) * trace.samples, trace.samples,
+                seen.c_str());
   if (slot.quad || trace.samples > 1) {
     const double at[2] = {slot.position.x, slot.position.y};
     row(2, "shaded at", std::span<const double>(at));

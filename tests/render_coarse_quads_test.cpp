@@ -8,6 +8,7 @@
 #include "render/coarse_quads.h"
 #include "render/make_frame.h"
 #include "render/trace_pixel.h"
+#include "spanray/settings_text.h"
 #include "support/raster_front_end.h"
 #include "support/sample_pictures.h"
 
@@ -54,14 +55,14 @@ bool same_radiance(const Framebuffer& a, size_t i, const Framebuffer& b, size_t 
   return std::memcmp(&a.radiance[3 * i], &b.radiance[3 * j], 12) == 0;
 }
 
-// Every aligned square of an odd-sized picture: one color where it is one surface without layers, and elsewhere, as in the last column and
-// row, the bytes of the picture at 1x1.
+// Every aligned square of an odd-sized picture: one color where it is one surface without layers, and elsewhere, as in the last
+// column and row, the bytes of the picture at 1x1.
 TEST(CoarseQuads, EdgesAndLayersKeepEveryPixel) {
   for (const char* name : {"spheres.toml", "columns.toml", "glass.toml", "gauze.toml", "hall.toml"})
     for (const Visibility engine : kEngines)
       for (const Shading shading : {Shading::kPhong, Shading::kFlat, Shading::kGouraud}) {
         if (shading != Shading::kPhong && std::string(name) != "glass.toml") continue;
-        SCOPED_TRACE(std::string(name) + (engine == Visibility::kRay ? ", rays, " : ", raster, ") + std::to_string(static_cast<int>(shading)));
+        SCOPED_TRACE(std::string(name) + " " + enum_text(engine) + " " + enum_text(shading));
         Shipped p(name, 131, 75);
         p.settings.visibility = engine, p.settings.shading = shading;
         const Rendered fine = p.render(ShadingRate::k1x1), coarse = p.render(ShadingRate::k2x2);
@@ -115,11 +116,12 @@ TEST(CoarseQuads, TheMiddleIsShaded) {
       for (size_t x = 0; x < 80; ++x) {
         const size_t at = 2 * y * 160 + 2 * x, i = y * 80 + x;
         const auto& id = coarse.frame.primitive;
-        if (id[at] != id[at + 1] || id[at] != id[at + 160] || id[at] != id[at + 161] || id[at] != small.frame.primitive[i]) continue;
-        if (id[at] == 0xffffffffu) continue;
+        if (id[at] != id[at + 1] || id[at] != id[at + 160] || id[at] != id[at + 161]) continue;
+        if (id[at] != small.frame.primitive[i] || id[at] == kNoPrimitive) continue;
         ++squares;
         int most = 0;
-        for (size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(coarse.frame.color.rgba[4 * at + c] - small.frame.color.rgba[4 * i + c]));
+        const uint8_t *const a = &coarse.frame.color.rgba[4 * at], *const b = &small.frame.color.rgba[4 * i];
+        for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
         off += most > 1;
       }
     std::printf("%s: %zu squares, %zu more than 1 of 255 off\n", name, squares, off);

@@ -85,7 +85,8 @@ TEST_F(Knobs, InterpolatedNormalsOfMirroredSurfaces) {
     const auto trace = trace_pixel(scene_, camera_, settings_, 20 + k * 2, 30 + k * 7 % 40);
     ASSERT_TRUE(trace);
     const std::vector<LevelTrace>& levels = trace.value().slots[0].levels;
-    for (size_t bounce = 1; bounce < levels.size(); ++bounce) found |= levels[bounce].surface.valid && length(levels[bounce].surface.normal) < 0.9999;
+    for (size_t bounce = 1; bounce < levels.size(); ++bounce)
+      found |= levels[bounce].surface.valid && length(levels[bounce].surface.normal) < 0.9999;
   }
   EXPECT_TRUE(found);
 }
@@ -133,7 +134,8 @@ TEST_F(Knobs, FastPowersErrByAStepAtMost) {
       Parallel parallel(1);
       const auto error = measure_pictures(exact.color, fast.color, parallel);
       ASSERT_TRUE(error);
-      std::printf("%s: max %.0f, PSNR %.1f dB, FLIP %.6f\n", name, error.value().max, error.value().psnr_db, error.value().flip);
+      const Metrics& m = error.value();
+      std::printf("%s: max %.0f, PSNR %.1f dB, FLIP %.6f\n", name, m.max, m.psnr_db, m.flip);
       EXPECT_LE(error.value().max, 2) << name;
       EXPECT_GE(error.value().psnr_db, 74) << name;  // root mean square 0.05 of 255
       EXPECT_LE(error.value().flip, 0.0005) << name;

@@ -46,7 +46,8 @@ inline constexpr float kMinHalfLength = 1e-5f;
 
 // All but the half-way vector, which only highlights need: n_h = l_h = 0.
 template <class F>
-SPANRAY_FORMULA Cosines<F> cosines(const Vec3<F>& n, const Vec3<F>& l, const Vec3<F>& v, F n_l, F shininess, bool fast_powers = false) {
+SPANRAY_FORMULA Cosines<F> cosines(const Vec3<F>& n, const Vec3<F>& l, const Vec3<F>& v, F n_l, F shininess,
+                                   bool fast_powers = false) {
   const F zero = number<F>(0.0f);
   return {n_l, dot(n, v), zero, zero, dot(l, v), shininess, fast_powers};
 }

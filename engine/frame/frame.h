@@ -17,7 +17,7 @@ struct PlanFlags {
   bool motion = false, raster = false, primary_rays = false, bvh = false, translucent_bvh = false;
   bool shadow_rays = false, bounces = false, translucents = false, masks = false;
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
-  bool raw_normals = false;   // interpolated normals stay as they are (Settings::normals), and some triangle has corners that differ
+  bool raw_normals = false;   // interpolated normals stay as they are (Settings::normals), and some triangle's corners differ
   bool coarse_quads = false;  // render/coarse_quads.h
   uint32_t maps = 0;  // MaterialMaps that some material has
 };

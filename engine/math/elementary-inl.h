@@ -107,9 +107,10 @@ HWY_INLINE F32 pow_(F32 base, F32 exponent) {
 // base^exponent for highlights, with fewer terms and no special cases. Input: base in [0, 1], exponent in [0, 1e4].
 // Relative error <= 2^-9.1 (1 + |log2(r)| / 7) of results r >= 2^-64; what is smaller gives at most 2^-63.
 // Source:   as pow_; P of degree 3, relative error 2^-11.4; 2^r by degree 2, relative error 2^-9.1.
-// Contract: the error of the logarithm is relative: an absolute one, as of reading it from the bits of the base, would be magnified by the
-//           exponent, near base = 1 too, where highlights are. pow(1, n) and pow(x, 0) err like all others; a base below 2^-126, and 0, counts as about 2^-127. No
-//           result is subnormal, nor any product of one with what a highlight is multiplied by: those cost more than the whole power.
+// Contract: the error of the logarithm is relative: an absolute one, as of reading it from the bits of the base, would be
+//           magnified by the exponent, near base = 1 too, where highlights are. pow(1, n) and pow(x, 0) err like all others; a
+//           base below 2^-126, and 0, counts as about 2^-127. No result is subnormal, nor any product of one with what a
+//           highlight is multiplied by: those cost more than the whole power.
 HWY_INLINE F32 fast_pow_(F32 base, F32 exponent) {
   const F32 one = f32(1.0f);
   const I32 bits = bits_of(base), octave = shift_right<23>(bits - i32(0x3f3504f3));  // of base / sqrt(1/2)

@@ -25,7 +25,8 @@ double least_weight(const Frame& frame, uint32_t primitive, double x, double y) 
     const float* at = frame.scene->vertices[frame.scene->triangles[primitive].vertex[i]].position;
     v[i] = glm::dvec3(at[0], at[1], at[2]) - p.eye;
   }
-  const double e[3] = {dot3(d, cross3(v[1], v[2])), dot3(d, cross3(v[2], v[0])), dot3(d, cross3(v[0], v[1]))}, sum = e[0] + e[1] + e[2];
+  const double e[3] = {dot3(d, cross3(v[1], v[2])), dot3(d, cross3(v[2], v[0])), dot3(d, cross3(v[0], v[1]))};
+  const double sum = e[0] + e[1] + e[2];
   return std::min({e[0] / sum, e[1] / sum, e[2] / sum});
 }
 

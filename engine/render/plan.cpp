@@ -72,7 +72,8 @@ SceneUse find_scene_use(const SceneData& scene) {
   use.material_used.assign(scene.materials.size(), false);
   use.any_triangle = !scene.triangles.empty();
   for (const Triangle& t : scene.triangles) use.material_used[material_of(t)] = true;
-  use.any_smooth = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) { return is_smooth(scene, t); });
+  use.any_smooth = std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                               [&](const Triangle& t) { return is_smooth(scene, t); });
   return use;
 }
 
@@ -109,7 +110,8 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                              "Gouraud shading: vertices of visible triangles are lit once", "nothing is lit");
   f.maps = w.maps;
   f.raw_normals = lines.add("normals as interpolated", s.normals == Normals::kInterpolated && s.shading == Shading::kPhong,
-                            s.shading == Shading::kPhong ? "normals are made unit vectors" : "only Phong shading interpolates normals",
+                            s.shading == Shading::kPhong ? "normals are made unit vectors"
+                                                         : "only Phong shading interpolates normals",
                             use.any_smooth, "normals between corners are shorter than 1", "each triangle has one normal");
   f.textures = lines.add("textures", s.textures, "switched off", w.textured, materials_text(w.textured, "with color or value maps"),
                          "no material has one");
@@ -122,8 +124,8 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
             lights == 0 ? "the scene has no light" : "the scene has no triangle");
   f.specular = lines.add("specular", true, "", lit ? w.specular : 0, materials_text(w.specular, "with a highlight"),
                          "no lit material has a highlight");
-  lines.add("fast powers", s.powers == Powers::kFast, "powers are exact", lit ? w.specular : 0, "highlights take powers of 9 bits",
-            "no lit material has a highlight");
+  lines.add("fast powers", s.powers == Powers::kFast, "powers are exact", lit ? w.specular : 0,
+            "highlights take powers of 9 bits", "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");
   f.bounces = lines.add("bounce rays", s.reflections == Reflections::kRay && s.max_bounces > 0, "switched off", w.mirror,

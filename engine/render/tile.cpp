@@ -287,7 +287,8 @@ void Level::resize(int n, bool translucents) {
 
 size_t Level::memory_bytes() const {
   size_t bytes = rays.memory_bytes() + pixel.bytes() + place.bytes() + primitive.bytes() + opaque_t.bytes() + transmittance.bytes() + parent.bytes() +
-                 slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes() + quads.capacity() * sizeof(Quad) + shading_place.bytes() + whole_slot.bytes();
+                 slot_of_hit.bytes() + surfaces.memory_bytes() + hits.memory_bytes() + quads.capacity() * sizeof(Quad) +
+                 shading_place.bytes() + whole_slot.bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + weight[c].bytes();
   return bytes;
 }

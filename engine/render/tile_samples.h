@@ -35,8 +35,8 @@ struct SampleHits {
 // Primary rays of the engine that traces, rounded to float. Shading does not use them: it takes the exact ones.
 void make_primary_batch(const Frame& frame, const uint32_t* pixel, int count, int place, RayBatch& rays);
 
-// Translucent layers of primary rays (make_primary_batch), those left out that lie behind what `opaque`, by ray, names: visibility must be
-// decided before pixels or samples are grouped, as the rasterizer does.
+// Translucent layers of primary rays (make_primary_batch), those left out that lie behind what `opaque`, by ray, names:
+// visibility must be decided before pixels or samples are grouped, as the rasterizer does.
 void trace_layers(const FrameJob& job, const RayBatch& rays, const uint32_t* opaque, FragmentList& out);
 
 // Rasterizes a tile once a sample.

@@ -90,7 +90,9 @@ uint32_t Tracer::raster_hit(int place, FragmentList& fragments, float& depth) {
   return visible->primitive[i];
 }
 
-void Tracer::make_primary_ray(uint32_t pixel, int place, RayBatch& rays) const { make_primary_batch(frame_, &pixel, 1, place, rays); }
+void Tracer::make_primary_ray(uint32_t pixel, int place, RayBatch& rays) const {
+  make_primary_batch(frame_, &pixel, 1, place, rays);
+}
 
 uint32_t Tracer::ray_hit(int place) const {
   RayBatch rays;

@@ -50,7 +50,8 @@ struct SlotTrace {
   bool quad = false;                        // shaded once for 2 x 2 pixels (Settings::shading_rate)
   glm::dvec2 position{0};                   // in the picture, where it is shaded
   glm::dvec3 direction{0};                  // the exact primary ray through it
-  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;  // what each engine sees there; of a quad, in the pixel itself
+  // What each engine sees there; of a quad, in the pixel itself.
+  uint32_t raster_primitive = 0xffffffffu, ray_primitive = 0xffffffffu;
   uint32_t primitive = 0xffffffffu;         // the one that is shaded
   float raster_depth = 0;                   // of the rasterizer's tile
   std::vector<LevelTrace> levels;

@@ -21,7 +21,8 @@ constexpr EnumName<Transparency> kTransparencyNames[] = {{Transparency::kScene, 
 constexpr EnumName<Culling> kCullingNames[] = {{Culling::kNone, "none"}, {Culling::kBack, "back"}};
 constexpr EnumName<Antialiasing> kAntialiasingNames[] = {{Antialiasing::kMultisample, "multisample"},
                                                          {Antialiasing::kSupersample, "supersample"}};
-constexpr EnumName<Normals> kNormalsNames[] = {{Normals::kInterpolated, "interpolated"}, {Normals::kRenormalized, "renormalized"}};
+constexpr EnumName<Normals> kNormalsNames[] = {{Normals::kInterpolated, "interpolated"},
+                                               {Normals::kRenormalized, "renormalized"}};
 constexpr EnumName<Powers> kPowersNames[] = {{Powers::kFast, "fast"}, {Powers::kExact, "exact"}};
 constexpr EnumName<ShadingRate> kShadingRateNames[] = {{ShadingRate::k2x2, "2x2"}, {ShadingRate::k1x1, "1x1"}};
 

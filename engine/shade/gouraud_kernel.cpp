@@ -23,8 +23,8 @@ HWY_INLINE Reflected light_corner(const Frame& frame, const LightLanes& light, c
   const V3 n = select3(signed_n_l < F32::zero(), -corner.normal, corner.normal);
   const F32 n_l = abs_(signed_n_l);
   active = active & (n_l > F32::zero());
-  Cosines c = formula::cosines(n, incidence.direction, corner.view, n_l, corner.shininess, frame.settings.powers == Powers::kFast);
-  const bool specular = frame.plan.specular;
+  const bool specular = frame.plan.specular, fast_powers = frame.settings.powers == Powers::kFast;
+  Cosines c = formula::cosines(n, incidence.direction, corner.view, n_l, corner.shininess, fast_powers);
   if (specular) formula::add_half_way(c, n, incidence.direction, corner.view);
   const Reflected r = reflect(corner.model, active, specular, c);
   return {copysign_(r.diffuse * incidence.attenuation, signed_n_l), copysign_(r.specular * incidence.attenuation, signed_n_l)};

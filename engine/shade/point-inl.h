@@ -108,7 +108,8 @@ HWY_INLINE V3f normal_of_blend(const Frame& frame, const V3f& blend, const V3f& 
 
 HWY_INLINE V3f interpolated_normal(const Frame& frame, const CornerNormals& n, F32 b1, F32 b2, const V3f& geometric) {
   const auto blend = [&](F32 n0, F32 d1, F32 d2) HWY_ATTR { return mul_add(b2, d2, mul_add(b1, d1, n0)); };
-  return normal_of_blend(frame, {blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)}, geometric);
+  const V3f whole = {blend(n.n0.x, n.d1.x, n.d2.x), blend(n.n0.y, n.d1.y, n.d2.y), blend(n.n0.z, n.d1.z, n.d2.z)};
+  return normal_of_blend(frame, whole, geometric);
 }
 
 }  // namespace surface_lanes

@@ -72,7 +72,8 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
   point.geometric = select(dot(unit, unit) > F32::zero(), unit, point.view);
   point.normal = point.geometric;
   if (frame.settings.shading != Shading::kFlat)
-    point.normal = interpolated_normal(frame, corner_normals(scene, t, point.geometric), point.weight.y, point.weight.z, point.geometric);
+    point.normal = interpolated_normal(frame, corner_normals(scene, t, point.geometric), point.weight.y, point.weight.z,
+                                       point.geometric);
   if (reads_textures(frame) || frame.plan.bounces) {
     const DifferentialLanes d = differentials();
     const V3d dpdx = transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal);

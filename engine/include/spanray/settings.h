@@ -16,13 +16,13 @@ enum class Transparency { kScene, kNone, kAlpha, kScreenDoor };
 enum class Culling { kNone, kBack };
 // What is shaded where a pixel has several samples: each distinct surface that they see, once, or every sample on its own.
 enum class Antialiasing { kMultisample, kSupersample };
-// Normals between the corners of a triangle: blended, hence shorter than 1 where corners differ, or made unit vectors again, as Phong 1975 has
-// them. Shorter ones darken highlights and bend reflections within coarse triangles.
+// Normals between the corners of a triangle: blended, hence shorter than 1 where corners differ, or made unit vectors again, as
+// Phong 1975 has them. Shorter ones darken highlights and bend reflections within coarse triangles.
 enum class Normals { kInterpolated, kRenormalized };
 // The power in highlights: its error bounds stand in math/elementary-inl.h (pow_, fast_pow_).
 enum class Powers { kFast, kExact };
-// Pixels shaded at once. k2x2: an aligned square of 2 x 2 pixels is shaded once, with its shadow and mirror rays, where all four see one
-// surface (render/coarse_quads.h); edges, layers of translucent surfaces, ids and depth keep every pixel.
+// Pixels shaded at once. k2x2: an aligned square of 2 x 2 pixels is shaded once, with its shadow and mirror rays, where all
+// four see one surface (render/coarse_quads.h); edges, layers of translucent surfaces, ids and depth keep every pixel.
 enum class ShadingRate { k2x2, k1x1 };
 
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
