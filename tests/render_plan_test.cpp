@@ -58,6 +58,18 @@ TEST(Plan, NeedsWhatTheUsedMaterialsAsk) {
   EXPECT_FALSE(line(plan_frame(scene_with(Material()), small()), "specular").needed);
 }
 
+TEST(Plan, CoarseShadingNeedsPixelsThatAreShadedOnce) {
+  const auto needed = [&](ShadingRate rate, int samples, Antialiasing mode) {
+    Settings s = small();
+    s.shading_rate = rate, s.samples = samples, s.antialiasing = mode;
+    return line(plan_frame(scene_with(Material()), s), "shading rate 2x2").needed;
+  };
+  EXPECT_FALSE(needed(ShadingRate::k1x1, 1, Antialiasing::kMultisample));
+  EXPECT_TRUE(needed(ShadingRate::k2x2, 1, Antialiasing::kSupersample)) << "one sample: the pixel itself";
+  EXPECT_TRUE(needed(ShadingRate::k2x2, 4, Antialiasing::kMultisample));
+  EXPECT_FALSE(needed(ShadingRate::k2x2, 4, Antialiasing::kSupersample));
+}
+
 TEST(Plan, UnusedMaterialsCostNothing) {
   auto data = std::make_shared<SceneData>(make_test_scene({triangle(0, 0)}, {Material(), Material()}));
   data->materials[1].mirror[0] = 1;
