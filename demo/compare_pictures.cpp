@@ -8,8 +8,10 @@
 
 #include "command.h"
 #include "core/atomic_file.h"
+#include "core/counted.h"
 #include "core/number_text.h"
 #include "image/false_color.h"
+#include "image/mask.h"
 #include "image/pfm.h"
 #include "math/color.h"
 #include "picture.h"
@@ -105,7 +107,7 @@ Result<void> check_files(const CompareOptions& options) {
   for (const auto& [option, file] : options.written()) {
     if (std::filesystem::path(file).extension() != ".png") throw UsageError("compare: the file of " + option + " must end in .png: " + file);
     if (!seen.insert(std::filesystem::weakly_canonical(file, none)).second) throw UsageError("compare: two pictures would be written to " + file);
-    for (const std::string& input : {options.a, options.b})
+    for (const std::string& input : {options.a, options.b, options.mask})
       if (std::filesystem::equivalent(file, input, none)) throw UsageError("compare: " + option + " would replace " + input + ", which is compared");
     if (auto writable = check_writable(file); !writable) return writable;
   }
@@ -122,6 +124,38 @@ Result<void> write_maps(const CompareOptions& options, const Image& a, const Ima
   return {};
 }
 
+void print_outside(const MaskDifference& d, size_t pixels) {
+  std::printf("outside       %llu of %zu (%.4f %%), at most %.6g %.6g %.6g of 255 (R, G, B)\n", static_cast<unsigned long long>(d.outside), pixels,
+              100.0 * static_cast<double>(d.outside) / static_cast<double>(pixels), d.worst[0], d.worst[1], d.worst[2]);
+  constexpr const char* kChannel[3] = {"red", "green", "blue"};
+  for (const MaskDifference::Pixel& p : d.first)
+    std::printf("outside_pixel %d,%d: %s %.6g, the mask says %.6g to %.6g\n", p.x, p.y, kChannel[p.channel], p.code, p.least, p.greatest);
+}
+
+// Whether the picture keeps within the mask; says where not.
+Result<bool> judge_mask(const CompareOptions& options, const ReadPicture& golden, const ReadPicture& other) {
+  const Result<AmbiguityMask> mask = read_mask(options.mask);
+  if (!mask) return mask.error();
+  const Result<MaskDifference> own = compare_with_mask(golden.view(), mask.value());
+  if (!own) return Error{own.error().message, options.mask};
+  const Result<MaskDifference> difference = compare_with_mask(other.view(), mask.value());
+  if (!difference) return Error{difference.error().message, options.mask};
+  const MaskDifference& d = difference.value();
+  print_outside(d, d.excess.size());
+  std::printf("left_open     %.4f %% of the pixels by more than 8 of 255\n", 100 * share_wider(mask.value(), 8));
+  if (own.value().outside > 0)
+    message(counted(own.value().outside, "pixel of the reference itself is", "pixels of the reference itself are") +
+            " outside of the mask: is it of the same scene, camera and settings?");
+  if (!options.mask_map.empty()) {
+    const double most = *std::max_element(d.excess.begin(), d.excess.end());
+    if (auto done = write_png(options.mask_map, false_color(d.excess, golden.bytes.width, golden.bytes.height, std::max(most, 1.0))); !done)
+      return done.error();
+  }
+  if (static_cast<long long>(d.outside) <= options.max_outside) return true;
+  fail(counted(d.outside, "pixel is", "pixels are") + " outside of the mask, allowed are " + std::to_string(options.max_outside));
+  return false;
+}
+
 // Whether all bounds are kept; says which are not.
 int judge(const CompareOptions& options, const Image& a, const Image& b, const Metrics& metrics) {
   bool kept = true;
@@ -131,7 +165,7 @@ int judge(const CompareOptions& options, const Image& a, const Image& b, const M
     fail(std::string(limit.metric->name) + " is " + number_text(metrics.*limit.metric->value) + ", allowed is at " +
          (limit.metric->more_is_better ? "least " : "most ") + number_text(limit.value));
   }
-  if (options.limits.empty() || options.count_wrong) {
+  if ((options.limits.empty() && options.mask.empty()) || options.count_wrong) {
     const long long past = count_past(a, b, options.max);
     if (past > options.max_wrong) {
       kept = false;
@@ -164,7 +198,11 @@ int compare_pictures(const CompareOptions& options) {
   print(difference.value(), metrics.value(), a, b);
   print_past_white(first.value(), second.value(), metrics.value());
   if (auto done = write_maps(options, a, b, maps, metrics.value().max); !done) return fail(done.error());
-  return judge(options, a, b, metrics.value());
+  const int judged = judge(options, a, b, metrics.value());
+  if (options.mask.empty()) return judged;
+  const Result<bool> inside = judge_mask(options, first.value(), second.value());
+  if (!inside) return fail(inside.error());
+  return inside.value() ? judged : int{kCouldNot};
 }
 
 }  // namespace spanray::demo

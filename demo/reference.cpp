@@ -1,4 +1,5 @@
 // spanray reference: the picture that the model asks for, or nature, slowly.
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -6,12 +7,14 @@
 
 #include "command.h"
 #include "core/atomic_file.h"
+#include "core/counted.h"
 #include "frame_options.h"
+#include "image/mask.h"
 #include "image/pfm.h"
 #include "path_command.h"
 #include "picture.h"
 #include "progress_line.h"
-#include "reference/reference.h"
+#include "reference/ambiguity.h"
 #include "render/check_request.h"
 
 namespace spanray::demo {
@@ -22,6 +25,8 @@ struct ReferenceCommand {
   std::string out;
   int grid = 0;
   PathCommand paths;
+  std::string mask;
+  AmbiguityBounds bounds;
 };
 
 void check_usage(const ReferenceCommand& command, const std::string& extension) {
@@ -33,6 +38,10 @@ void check_usage(const ReferenceCommand& command, const std::string& extension) 
   };
   if (!command.paths.accumulate.empty() && place(command.paths.accumulate) == place(command.out))
     throw UsageError("reference: --out and --accumulate are the same file: " + command.out);
+  if (command.mask.empty()) return;
+  if (std::filesystem::path(command.mask).extension() != ".pfm")
+    throw UsageError("reference: --mask writes PFM, so its file must end in .pfm: " + command.mask);
+  if (place(command.mask) == place(command.out)) throw UsageError("reference: --out and --mask are the same file: " + command.out);
 }
 
 Result<PathPicture> render_model(const ReferenceCommand& command, const Job& job) {
@@ -48,10 +57,26 @@ Result<PathPicture> render_model(const ReferenceCommand& command, const Job& job
   return made;
 }
 
+Result<void> render_mask(const ReferenceCommand& command, const Job& job) {
+  ReferenceOptions options;
+  options.threads = job.settings.threads, options.grid = command.grid;
+  ProgressLine progress("ambiguity mask");
+  options.progress = [&](double fraction) { progress.show(fraction); };
+  AmbiguityMask mask;
+  const Result<void> made = make_ambiguity_mask(job.scene, job.camera, job.settings, options, command.bounds, mask);
+  progress.clear();
+  if (!made) return made.error();
+  if (auto written = write_mask(command.mask, mask); !written) return written.error();
+  std::printf("ambiguous  %.4f %% of the pixels are left open by more than 8 of 255\n", 100 * share_wider(mask, 8));
+  std::printf("open       %s mirrors that show too much to be enumerated\n", counted(mask.open, "pixel has", "pixels have").c_str());
+  return {};
+}
+
 int reference(const ReferenceCommand& command) {
   const std::string extension = std::filesystem::path(command.out).extension().string();
   check_usage(command, extension);
-  if (auto writable = check_writable(command.out); !writable) return fail(writable.error());
+  for (const std::string& file : {command.out, command.mask})
+    if (auto writable = file.empty() ? Result<void>() : check_writable(file); !writable) return fail(writable.error());
   Result<Job> loaded = command.frame.load();
   if (!loaded) return fail(loaded.error());
   const Job& job = loaded.value();
@@ -68,6 +93,8 @@ int reference(const ReferenceCommand& command) {
                            : write_pfm(command.out, FloatImage{picture.color.width, picture.color.height, std::move(picture.radiance)});
   if (!made.saved) fail(made.saved.error());
   if (!written) return fail(written.error());
+  if (!command.mask.empty())
+    if (auto masked = render_mask(command, job); !masked) return fail(masked.error());
   return made.saved && !made.stopped ? kDone : kCouldNot;
 }
 
@@ -82,7 +109,14 @@ void add_reference(CLI::App& app, Run& run) {
   CLI::Option* grid = command->add_option("--grid", options->grid, "N x N samples a pixel, instead of --samples")
                           ->check(CLI::Range(1, 64))
                           ->type_name("N");
-  options->paths.add_to(*command)->excludes(grid);
+  CLI::Option* mask = command->add_option("--mask", options->mask,
+                                          "Write the ambiguity mask, too: the least and the greatest color of each pixel that errors within "
+                                          "published bounds allow, for compare --mask")
+                          ->type_name("M.pfm");
+  command->add_flag("--mask-any-footprint", options->bounds.any_opengl_footprint,
+                    "The mask allows for every level of detail that OpenGL does, instead of the model's alone")
+      ->needs(mask);
+  options->paths.add_to(*command)->excludes(grid)->excludes(mask);
   command->callback([options, &run] { run = [options] { return reference(*options); }; });
 }
 

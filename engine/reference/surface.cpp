@@ -58,7 +58,7 @@ struct Surfaces::Point {
 
 // o + t d = v0 + b1 edge1 + b2 edge2, by Cramer's rule; derivatives by differentiating it: the tip moves with the footprint,
 // then back along the ray onto the plane (Igehy 1999, 10 to 12).
-Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
+Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const {
   const Triangle& triangle = scene_.triangles[primitive];
   Point p;
   for (int k = 0; k < 3; ++k) p.v[k] = to_dvec(scene_.vertices[triangle.vertex[k]].position);
@@ -83,6 +83,7 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
   p.dv[1] = double{c2[1]} - c0[1];
   p.uv.u = c0[0] + p.weight[1] * p.du[0] + p.weight[2] * p.du[1];
   p.uv.v = c0[1] + p.weight[1] * p.dv[0] + p.weight[2] * p.dv[1];
+  p.uv.nudge = nudge;
   // Weights of a step within the plane.
   const double square = dot3(p.normal, p.normal);
   const auto step = [&](const glm::dvec3& move, double& du, double& dv) {
@@ -93,22 +94,34 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive) const {
   return p;
 }
 
-bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
+bool Surfaces::culled(const Ray& ray, uint32_t primitive) const {
+  if (settings_.culling != Culling::kBack) return false;
   const Triangle& triangle = scene_.triangles[primitive];
-  if (settings_.culling == Culling::kBack) {
-    const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
-    const glm::dvec3 n =
-        cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0, to_dvec(scene_.vertices[triangle.vertex[2]].position) - v0);
-    const double side = dot3(n, ray.line.origin - v0);
-    if (!((triangle.bits & kTriangleFlipped) != 0 ? side < 0 : side > 0)) return false;
-  }
+  const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
+  const glm::dvec3 n =
+      cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0, to_dvec(scene_.vertices[triangle.vertex[2]].position) - v0);
+  const double side = dot3(n, ray.line.origin - v0);
+  return !((triangle.bits & kTriangleFlipped) != 0 ? side < 0 : side > 0);
+}
+
+double Surfaces::stop_opacity(const Ray& ray, uint32_t primitive, const Nudge& nudge) const {
   const Role how = role(primitive);
-  if (how != Role::kMask && how != Role::kScreenDoor) return true;
+  if (how != Role::kMask && how != Role::kScreenDoor) return 1;
   const Material& m = material(primitive);
   double opacity = settings_.transparency == Transparency::kNone ? 1.0 : double{m.opacity};
   constexpr double kMaskLastLevel = 2;  // coarser ones would thin a fence until it is gone
   if (const TextureUse* map = use(m.map_opacity))
-    opacity *= textures_.scalar(*map, point_at(ray, primitive).uv, kMaskLastLevel);
+    opacity *= textures_.scalar(*map, point_at(ray, primitive, nudge).uv, kMaskLastLevel);
+  return opacity;
+}
+
+bool Surfaces::stops(const Ray& ray, uint32_t primitive) const {
+  return !culled(ray, primitive) && stops(ray, primitive, stop_opacity(ray, primitive));
+}
+
+bool Surfaces::stops(const Ray& ray, uint32_t primitive, double opacity) const {
+  const Role how = role(primitive);
+  if (how != Role::kMask && how != Role::kScreenDoor) return true;
   if (how == Role::kMask) return opacity >= 0.5;
   // Bayer 1973: rank in an ordered dither of 8 x 8, the bits of x ^ y and y from the lowest up, as digits from the highest
   // down.
@@ -168,9 +181,9 @@ void Surfaces::apply_maps(const Point& p, const Material& m, Surface& s) const {
   if (const TextureUse* u = use(m.map_opacity)) s.opacity = std::clamp(s.opacity * textures_.scalar(*u, p.uv), 0.0, 1.0);
 }
 
-Surface Surfaces::at(const Ray& ray, uint32_t primitive) const {
+Surface Surfaces::at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const {
   const Material& m = material(primitive);
-  const Point p = point_at(ray, primitive);
+  const Point p = point_at(ray, primitive, nudge);
   Surface s;
   s.primitive = primitive;
   s.t = p.t, s.position = p.position, s.geometric = p.geometric, s.position_dx = p.position_dx, s.position_dy = p.position_dy;

@@ -38,15 +38,19 @@ class Surfaces {
  public:
   Surfaces(const SceneData& scene, const Settings& settings);
 
-  Surface at(const Ray& ray, uint32_t primitive) const;
+  Surface at(const Ray& ray, uint32_t primitive, const Nudge& nudge = {}) const;
   // Do cut-outs and screen-door let the surface stop the ray? And does culling?
   bool stops(const Ray& ray, uint32_t primitive) const;
+  // Its parts: what culling says; the opacity that cut-outs and screen-door go by (1 for other surfaces), and what follows from it.
+  bool culled(const Ray& ray, uint32_t primitive) const;
+  double stop_opacity(const Ray& ray, uint32_t primitive, const Nudge& nudge = {}) const;
+  bool stops(const Ray& ray, uint32_t primitive, double opacity) const;
   Role role(uint32_t primitive) const { return role_[material_of(scene_.triangles[primitive])]; }
   const Material& material(uint32_t primitive) const { return scene_.materials[material_of(scene_.triangles[primitive])]; }
 
  private:
   struct Point;  // where the ray meets the plane of the triangle
-  Point point_at(const Ray& ray, uint32_t primitive) const;
+  Point point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const;
   glm::dvec3 interpolated_normal(const Point& point, uint32_t primitive) const;
   glm::dvec3 bumped(const Point& point, const Material& material, glm::dvec3 normal) const;
   void apply_maps(const Point& point, const Material& material, Surface& s) const;

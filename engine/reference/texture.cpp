@@ -8,15 +8,20 @@ namespace {
 
 int level_size(int size, int level) { return std::max(1, size >> level); }
 
+// Of a step of one pixel, in texels.
+double footprint(const Coordinates& at, double width, double height) {
+  const double ux = std::fabs(at.du_dx) * width, uy = std::fabs(at.du_dy) * width, vx = std::fabs(at.dv_dx) * height,
+               vy = std::fabs(at.dv_dy) * height, mu = std::max(ux, uy), mv = std::max(vx, vy);
+  return at.nudge.footprint < 0 ? std::max(mu, mv) : at.nudge.footprint > 0 ? mu + mv : std::max(std::hypot(ux, vx), std::hypot(uy, vy));
+}
+
 }  // namespace
 
 Textures::Levels Textures::levels(const TextureUse& use, const Coordinates& at, double last_level) const {
   const Texture& t = texture(use);
-  const double width = t.width * double{use.scale[0]}, height = t.height * double{use.scale[1]};
-  const double longer =
-      std::max(std::hypot(at.du_dx * width, at.dv_dx * height), std::hypot(at.du_dy * width, at.dv_dy * height));
+  const double longer = footprint(at, std::fabs(t.width * double{use.scale[0]}), std::fabs(t.height * double{use.scale[1]}));
   const double last = std::min<double>(t.levels - 1, last_level);
-  const double level = std::clamp(longer > 0 ? std::log2(longer) : 0.0, 0.0, last);  // infinity: the last
+  const double level = std::clamp(longer > 0 ? std::log2(longer) + at.nudge.levels : 0.0, 0.0, last);  // infinity: the last
   if (filter_ != Filter::kTrilinear) return {static_cast<int>(std::floor(level + 0.5)), 0};
   return {static_cast<int>(level), level - std::floor(level)};
 }
@@ -37,7 +42,7 @@ glm::dvec2 Textures::place(const TextureUse& use, const Coordinates& at, int lev
     u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
   else
     u -= std::floor(u), v -= std::floor(v);
-  return {u * level_size(t.width, level), (1 - v) * level_size(t.height, level)};  // v = 0 is the bottom row
+  return {u * level_size(t.width, level) + at.nudge.x, (1 - v) * level_size(t.height, level) + at.nudge.y};  // v = 0 is the bottom row
 }
 
 glm::dvec4 Textures::bilinear(const TextureUse& use, int level, const glm::dvec2& place) const {

@@ -5,9 +5,18 @@
 
 namespace spanray::reference {
 
+// How another renderer may read a texture (ambiguity.h): beside the place by so many texels of the level that is read, from another
+// level of detail, by another measure of the footprint. Zero: the model.
+struct Nudge {
+  double x = 0, y = 0, levels = 0;
+  // -1, 1: the least and the greatest footprint that OpenGL 4.6, 8.14.1, allows: max(mu, mv) and mu + mv.
+  int footprint = 0;
+};
+
 // Texture coordinates of the mesh at a point, and how they change by a step of one pixel in x and in y.
 struct Coordinates {
   double u = 0, v = 0, du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
+  Nudge nudge = {};
 };
 
 class Textures {

@@ -64,6 +64,22 @@ class Tree {
     });
     return found;
   }
+  // visit(primitive, v) for every triangle in a box that the region does not miss: misses(low, high). True ends the walk.
+  template <class Misses, class Visit>
+  void visit_region(const Misses& misses, const Visit& visit) const {
+    if (node_.empty()) return;
+    uint32_t stack[128];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const uint32_t at = stack[--depth];
+      const Node& node = node_[at];
+      if (misses(node.box.low, node.box.high)) continue;
+      for (uint32_t i = node.first; i < node.first + node.count; ++i)
+        if (visit(item_[i].primitive, item_[i].v)) return;
+      if (node.count == 0) stack[depth++] = node.first, stack[depth++] = at + 1;
+    }
+  }
   bool empty() const { return item_.empty(); }
 
  private:

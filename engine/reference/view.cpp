@@ -17,9 +17,9 @@ View::View(const Camera& c, int width, int height) : half_width(0.5 * width), ha
   right = side * pixel, down = cross3(forward, side) * pixel;
 }
 
-uint8_t srgb_byte(double linear) {
+double srgb_code(double linear) {
   const double v = std::clamp(linear, 0.0, 1.0);
-  return static_cast<uint8_t>(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055) + 0.5);
+  return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
 }
 
 }  // namespace spanray::reference

@@ -15,7 +15,8 @@ struct View {
   glm::dvec3 direction(double x, double y) const { return forward + right * (x - half_width) + down * (y - half_height); }
 };
 
-// The sRGB code of linear light, clamped to [0, 1].
-uint8_t srgb_byte(double linear);
+// The sRGB code of linear light, clamped to [0, 1], in [0, 255], and the byte that is nearest to it.
+double srgb_code(double linear);
+inline uint8_t srgb_byte(double linear) { return static_cast<uint8_t>(srgb_code(linear) + 0.5); }
 
 }  // namespace spanray::reference
