@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
              0.003, 0.98},
         Case{"spheres, culled, one bounce", "spheres", [](Settings& s) { s.culling = Culling::kBack, s.max_bounces = 1; },
              0.002, 0.0002, 0.96},
+        Case{"gauze, culled", "gauze", [](Settings& s) { s.culling = Culling::kBack; }, 0.002, 0.0002, 0.96},
         Case{"hall, plain", "hall", [](Settings& s) { s.textures = s.bump = false, s.shadows = Shadows::kNone; }, 0.002, 0.0002,
              0.97}));
 

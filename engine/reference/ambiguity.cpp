@@ -73,7 +73,7 @@ std::vector<Piece> MaskRenderer::pieces_of(const Tree& tree, const Bundle& bundl
   tree.visit_region(
       [&](const glm::dvec3& low, const glm::dvec3& high) { return bundle.beam.misses(low, high); },
       [&](uint32_t primitive, const glm::dvec3 (&v)[3]) {
-        if (!shader_.gather(bundle.beam, primitive, v, [&](const glm::dvec3& x) { return bundle.through(x); }, pieces)) return false;
+        if (!shader_.gather(RangeShader::For::kSight, bundle.beam, primitive, v, [&](const glm::dvec3& x) { return bundle.through(x); }, pieces)) return false;
         Piece& p = pieces.back();
         p.near = kFar, p.far = 0;
         for (const glm::dvec3& x : p.corner) p.near = std::min(p.near, bundle.depth(x)), p.far = std::max(p.far, bundle.depth(x));

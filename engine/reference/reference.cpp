@@ -37,7 +37,7 @@ class Renderer {
     const Way way = way_to(light, start_above(s));
     Ray shadow;  // a point: cut-outs are read at full detail
     shadow.line = way.line, shadow.x = ray.x, shadow.y = ray.y;
-    return !world_.opaque.any(way.line, 0, way.t_max, world_.stop(shadow));
+    return !world_.opaque.any(way.line, 0, way.t_max, world_.blocks(shadow));
   }
   glm::dvec3 shade(const Ray& ray, const Surface& s) const {
     glm::dvec3 sum = ambient_radiance(world_.scene, s);

@@ -105,7 +105,7 @@ RangeShader::Lit RangeShader::lit(const Bundle& bundle, const Piece& piece, cons
   bool stopped = false;
   world_.opaque.visit_region([&](const glm::dvec3& low, const glm::dvec3& high) { return beam.misses(low, high); },
                              [&](uint32_t primitive, const glm::dvec3 (&v)[3]) {
-                               if (primitive == piece.primitive || !gather(beam, primitive, v, ray_to, pieces)) return false;
+                               if (primitive == piece.primitive || !gather(For::kShadow, beam, primitive, v, ray_to, pieces)) return false;
                                const Piece& p = pieces.back();
                                stopped = p.certain && !p.cut && !p.crosses[0] && !p.crosses[1] && !p.crosses[2];
                                return stopped || pieces.size() > kMostBlockers;

@@ -23,14 +23,15 @@ class RangeShader {
       : world_(world), settings_(settings), bounds_(bounds) {}
 
   Seen see(const Bundle& bundle, const Piece& piece) const;
-  // Adds the part of a triangle that lies in the beam, if culling, cut-outs and screen-door may let it stop rays; false if nothing was added.
-  // ray_to: the ray through a point.
+  // Adds the part of a triangle that lies in the beam, if cut-outs, screen-door and (not for shadows) culling may let it stop rays; false if
+  // nothing was added. ray_to: the ray through a point.
+  enum class For { kSight, kShadow };
   template <class RayTo>
-  bool gather(const Beam& beam, uint32_t primitive, const glm::dvec3 (&v)[3], const RayTo& ray_to, std::vector<Piece>& pieces) const {
+  bool gather(For what, const Beam& beam, uint32_t primitive, const glm::dvec3 (&v)[3], const RayTo& ray_to, std::vector<Piece>& pieces) const {
     Piece piece = clip(beam, primitive, v);
     if (piece.corner.empty()) return false;
     const Ray ray = ray_to(middle(piece.corner));
-    if (world_.surfaces.culled(ray, primitive)) return false;
+    if (what == For::kSight && world_.surfaces.culled(ray, primitive)) return false;
     const Role role = world_.surfaces.role(primitive);
     if (role == Role::kMask || role == Role::kScreenDoor) {
       const Range opacity = stop_opacity(piece, ray_to);
