@@ -116,6 +116,11 @@ void add_reference(CLI::App& app, Run& run) {
   command->add_flag("--mask-any-footprint", options->bounds.any_opengl_footprint,
                     "The mask allows for every level of detail that OpenGL does, instead of the model's alone")
       ->needs(mask);
+  command->add_option("--mask-codes", options->bounds.codes,
+                      "What the mask allows for shading in float and the step to bytes, in codes of 255; default 1")
+      ->needs(mask)
+      ->check(CLI::Range(0.0, 255.0))
+      ->type_name("N");
   options->paths.add_to(*command)->excludes(grid)->excludes(mask);
   command->callback([options, &run] { run = [options] { return reference(*options); }; });
 }

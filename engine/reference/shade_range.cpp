@@ -127,7 +127,12 @@ Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
     seen.color = {glm::dvec3(0), glm::dvec3(kAnything)}, seen.alpha = {0, 1};
     return seen;
   }
-  for (const glm::dvec3& x : piece.corner) add(bundle, piece, x, {}, &Spread::corner, sums);
+  for (size_t i = 0; i < piece.corner.size(); ++i) {
+    const glm::dvec3 &x = piece.corner[i], &next = piece.corner[(i + 1) % piece.corner.size()];
+    add(bundle, piece, x, {}, &Spread::corner, sums);
+    if (!bundle.bends()) continue;  // in mirrors a piece may be large, and light far from linear on it
+    add(bundle, piece, (x + next) * 0.5, {}, &Spread::corner, sums), add(bundle, piece, (x + at) * 0.5, {}, &Spread::corner, sums);
+  }
   for (const Nudge& nudge : nudges(world_.surfaces.material(piece.primitive), moved_levels(bundle, piece)))
     add(bundle, piece, at, nudge, &Spread::nudge, sums);
   const Surface s = world_.surfaces.at(bundle.through(at), piece.primitive);
