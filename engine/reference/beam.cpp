@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace spanray::reference {
@@ -120,17 +121,21 @@ Bundle mirrored_bundle(const std::vector<Ray>& rays, const glm::dvec3& normal, d
   bundle.center = rays[0];
   const glm::dvec3 origin = rays[0].line.origin;
   bundle.axis = normalize3(rays[0].line.direction, normal);
-  glm::dvec3 longest(0);
-  for (const Ray& ray : rays)
-    if (const glm::dvec3 from = ray.line.origin - origin; dot3(from, from) > dot3(longest, longest)) longest = from;
-  make_frame(bundle.axis, longest, bundle.u, bundle.v);
-  for (const Ray& ray : rays) {
-    const glm::dvec3 from = ray.line.origin - origin;
-    const double along = std::max(dot3(ray.line.direction, bundle.axis), 1e-3 * length3(ray.line.direction));
-    const auto widen = [&](const glm::dvec3& side, double& start, double& spread) {
-      start = std::max(start, std::fabs(dot3(from, side))), spread = std::max(spread, std::fabs(dot3(ray.line.direction, side)) / along);
-    };
-    widen(bundle.u, bundle.start_u, bundle.spread_u), widen(bundle.v, bundle.start_v, bundle.spread_v);
+  // The frame in which they start from the smallest rectangle, among those along lines between two of them.
+  double smallest = std::numeric_limits<double>::infinity();
+  const Bundle none = bundle;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    Bundle tried = none;
+    make_frame(bundle.axis, rays[(i + 1) % rays.size()].line.origin - rays[i].line.origin, tried.u, tried.v);
+    for (const Ray& ray : rays) {
+      const glm::dvec3 from = ray.line.origin - origin;
+      const double along = std::max(dot3(ray.line.direction, bundle.axis), 1e-3 * length3(ray.line.direction));
+      const auto widen = [&](const glm::dvec3& side, double& start, double& spread) {
+        start = std::max(start, std::fabs(dot3(from, side))), spread = std::max(spread, std::fabs(dot3(ray.line.direction, side)) / along);
+      };
+      widen(tried.u, tried.start_u, tried.spread_u), widen(tried.v, tried.start_v, tried.spread_v);
+    }
+    if (const double size = tried.start_u * tried.start_v; size < smallest) smallest = size, bundle = tried;
   }
   constexpr double kDirection = 0x1p-20;  // of directions in float
   bundle.start_u += error, bundle.start_v += error;

@@ -36,15 +36,14 @@ inline ColorRange over(const ColorRange& c, const Range& alpha, const ColorRange
 }
 
 // A function's range over a small region, from its values at the middle, at the region's corners, and at the middle with errors of reading
-// (nudges): to first order the two deviations add. A quarter is added for what is not of first order.
+// (nudges): to first order the two deviations add. `more`: times so much, for what is not of first order.
 class Spread {
  public:
   void middle(const glm::dvec3& v) { at_ = v, corners_.add(v), nudges_.add(v); }
   void corner(const glm::dvec3& v) { corners_.add(v); }
   void nudge(const glm::dvec3& v) { nudges_.add(v); }
-  ColorRange range() const {
-    constexpr double kMore = 1.25;
-    const glm::dvec3 low = at_ - (at_ - corners_.low + at_ - nudges_.low) * kMore, high = at_ + (corners_.high - at_ + nudges_.high - at_) * kMore;
+  ColorRange range(double more = 1.25) const {
+    const glm::dvec3 low = at_ - (at_ - corners_.low + at_ - nudges_.low) * more, high = at_ + (corners_.high - at_ + nudges_.high - at_) * more;
     return {most(low, glm::dvec3(0)), high};
   }
 

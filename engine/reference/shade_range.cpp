@@ -8,6 +8,7 @@
 namespace spanray::reference {
 namespace {
 
+constexpr double kMoreInMirrors = 1.5;  // how much wider than its samples a highlight is taken there
 constexpr double kGrazing = 0x1p-16;  // cosines as small as this may be of either sign
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -142,7 +143,7 @@ Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
   seen.alpha = {std::min(alpha.low.x, 1.0), std::min(alpha.high.x, 1.0)};
   seen.color = sums.base.range();
   for (size_t i = 0; i < world_.lights.size(); ++i) {
-    ColorRange light = sums.lights[i].range();
+    ColorRange light = sums.lights[i].range(bundle.bends() ? kMoreInMirrors : 1.25);
     if (!any(light.high)) continue;
     const Lit how = lit(bundle, piece, seen, world_.lights[i]);
     if (how == Lit::kNo) continue;
