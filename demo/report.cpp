@@ -68,7 +68,7 @@ void remove_old_pictures(const std::string& folder) {
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.ends_with(".png") && (name.starts_with("picture-") || name.starts_with("flip-") || name.starts_with("error-"))) old.push_back(entry.path());
+    if (name.ends_with(".png") && (name.starts_with("picture-") || name.starts_with("flip-") || name.starts_with("error-") || name.starts_with("mask-"))) old.push_back(entry.path());
   }
   for (const fs::path& path : old) fs::remove(path, none);
 }
@@ -77,10 +77,12 @@ Result<void> write_report(const std::string& folder, const Report& report) {
   remove_old_pictures(folder);
   Result<std::vector<PageImage>> images = write_pictures(folder, report);
   if (!images) return images.error();
+  const Result<std::string> mask = write_picture(folder + "/mask-width.png", report.mask.widths);
+  if (!mask) return mask.error();
   const std::string json = report_json(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (auto written = write_file_atomic(folder + "/report.csv", report_csv(report)); !written) return written;
   if (auto written = write_file_atomic(folder + "/report.json", json); !written) return written;
-  return write_file_atomic(folder + "/report.html", report_page(report, images.value()));
+  return write_file_atomic(folder + "/report.html", report_page(report, images.value(), mask.value()));
 }
 
 int run_report(const ReportCommand& command) {
@@ -104,6 +106,12 @@ int run_report(const ReportCommand& command) {
   progress.clear();
   if (!trade) return fail(trade.error());
   report.trade = std::move(trade.value());
+  const Measured& plain = report.trade.settings[0];
+  Result<ReportMask> mask =
+      measure_mask(report.job, plain.candidate.settings, plain.picture, [&](double fraction) { progress.show("ambiguity mask", fraction); });
+  progress.clear();
+  if (!mask) return fail(mask.error());
+  report.mask = std::move(mask.value());
   report.dominated = dominated_by(costs(report));
   report.not_modelled = find_not_modelled(report.job);
   report.machine = describe_machine(report);

@@ -156,6 +156,7 @@ Json report_json(const Report& report) {
   }
   out["plan"] = plan_json(plan_frame(report.job.scene, plain_settings(report.knobs, report.job.settings)));
   out["plan_costs"] = plan_costs_json(report);
+  out["ambiguity"] = mask_json(report.mask);
   out["not_modelled"] = report.not_modelled;
   return out;
 }

@@ -17,6 +17,18 @@ std::string short_number(double v) {
                 v);
   return text;
 }
+// Source: RFC 4648, 4.
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 std::string cell(const std::string& text, const char* kind) {
   return std::string("<td") + (*kind != 0 ? " class=\"" + std::string(kind) + "\"" : "") + ">" + text + "</td>";
 }

@@ -9,6 +9,8 @@ namespace spanray::demo {
 std::string short_number(double v);
 std::string hundredths(double v);
 std::string milliseconds(double v);
+// Of the bytes of a file.
+std::string base64(const std::string& bytes);
 // text: HTML. kind: of the style sheet.
 std::string cell(const std::string& text, const char* kind = "");
 std::string cell(double v);

@@ -17,18 +17,6 @@
 namespace spanray::demo {
 namespace {
 
-// Source: RFC 4648, 4.
-std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned word = 0;
-    for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 const Measured& setting(const Report& r, int i) { return r.trade.settings[static_cast<size_t>(i)]; }
 std::string name_of(const Report& r, int i) { return escape_html(setting(r, i).candidate.name); }
 
@@ -265,7 +253,7 @@ std::string script_string(const std::string& text) {
 
 }  // namespace
 
-std::string report_page(const Report& r, const std::vector<PageImage>& images) {
+std::string report_page(const Report& r, const std::vector<PageImage>& images, const std::string& mask_png) {
   const std::string title = "Speed against error: " + escape_html(std::filesystem::path(r.scene_path).filename().string());
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
@@ -275,7 +263,7 @@ std::string report_page(const Report& r, const std::vector<PageImage>& images) {
           std::to_string(r.job.scene.triangle_count()) + " triangles, " + std::to_string(r.job.scene.light_count()) +
           " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") +
           " each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
-  page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + budget_tables(r) + stage_table(r) +
+  page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + mask_section(r.mask, mask_png) + budget_tables(r) + stage_table(r) +
           plan_section(r) + machine_section(r);
   page += "<script>\nconst IMAGES = {\n";
   for (const PageImage& image : images) {

@@ -6,9 +6,9 @@
 
 namespace spanray::demo {
 
-// Pictures of the page by id ("truth" is the ground truth), as PNG bytes.
+// Pictures of the page by id ("truth" is the ground truth), as PNG bytes; mask_png: the widths of the ambiguity mask.
 struct PageImage { std::string id, name, picture_png, flip_png; };
 
-std::string report_page(const Report& report, const std::vector<PageImage>& images);
+std::string report_page(const Report& report, const std::vector<PageImage>& images, const std::string& mask_png);
 
 }  // namespace spanray::demo

@@ -290,7 +290,14 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing from elsewhere";
   EXPECT_EQ(page.find("<b>&."), std::string::npos) << "the name of the scene is escaped";
   EXPECT_NE(page.find("a&lt;b&gt;&amp;.obj"), std::string::npos);
-  EXPECT_EQ(count_of(page, "data:image/png;base64,"), 1 + 2 * rows.size());
+  EXPECT_EQ(count_of(page, "data:image/png;base64,"), 1 + 2 * rows.size() + 1) << "truth, settings and their maps, the mask's widths";
+  const nlohmann::json& ambiguity = json["ambiguity"];
+  EXPECT_EQ(ambiguity["outside"], 0);
+  EXPECT_GT(ambiguity["share_over_8"], 0);
+  EXPECT_LT(ambiguity["share_over_8"], 0.1);
+  EXPECT_GE(ambiguity["share_over_3"], ambiguity["share_over_8"]);
+  EXPECT_TRUE(read_png(out + "mask-width.png"));
+  EXPECT_NE(page.find("pixels are left open by more than 8 of 255"), std::string::npos);
   for (const Row& row : rows) EXPECT_GE(count_of(page, demo::escape_html(row.at("name"))), 2u) << row.at("name");
   for (const char* word : {"<svg", "no material has one", "Not modelled", "scene hash", "numeric contract", "48x32",
                            "beaten by", "errs itself", "class=\"truth\"", "The presets", "<noscript>", "6 frames each", "saves, ms"})

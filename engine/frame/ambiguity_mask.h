@@ -1,4 +1,4 @@
-// For each pixel the least and the greatest color that a renderer of the same model may give it (docs/decisions/0012-ambiguity-mask.md).
+// For each pixel the least and the greatest color that a renderer of the same model may give it (docs/decisions/0013-ambiguity-mask.md).
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // The least and the greatest color that each pixel may have, when vertices, texture reads, levels of detail, depths and positions err by no
-// more than is published (docs/decisions/0012-ambiguity-mask.md). In double, by the reference renderer's own surfaces, lights and tree.
+// more than is published (docs/decisions/0013-ambiguity-mask.md). In double, by the reference renderer's own surfaces, lights and tree.
 #pragma once
 #include "frame/ambiguity_mask.h"
 #include "reference/reference.h"
