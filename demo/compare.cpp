@@ -50,14 +50,21 @@ void add_compare(CLI::App& app, Run& run) {
   command->add_option("B", options->b, "The other one");
   auto golden = std::make_shared<std::string>();
   command->add_option("--golden", *golden, "The reference, instead of A; then A alone is compared with it")->type_name("G");
-  CLI::Option* mask = command->add_option("--mask", options->mask,
-                                          "Ambiguity mask of the reference (spanray reference --mask): exit 0 if every pixel of the other "
-                                          "picture lies within. Without --max and --max-wrong, wrong pixels are then not counted")
-                          ->type_name("M.pfm");
+  CLI::Option* mask =
+      command
+          ->add_option("--mask", options->mask,
+                       "Ambiguity mask of the reference (spanray reference --mask): exit 0 if every pixel of the other "
+                       "picture lies within. Without --max and --max-wrong, wrong pixels are then not counted")
+          ->type_name("M.pfm");
   command->add_option("--max-outside", options->max_outside, "Exit 0 while at most N pixels are outside of the mask; default 0")
-      ->needs(mask)->check(CLI::Range(0LL, 1LL << 40))->type_name("N");
-  command->add_option("--mask-map", options->mask_map, "Write how far each pixel is outside of the mask, in false color with a legend")
-      ->needs(mask)->type_name("V.png");
+      ->needs(mask)
+      ->check(CLI::Range(0LL, 1LL << 40))
+      ->type_name("N");
+  command
+      ->add_option("--mask-map", options->mask_map,
+                   "Write how far each pixel is outside of the mask, in false color with a legend")
+      ->needs(mask)
+      ->type_name("V.png");
   command->add_option("--diff", options->diff, "Write a picture of the differences: dark gray where equal, bright where not")->type_name("D.png");
   command->add_option("--error-map", options->error_map, "Write the largest difference of a channel of each pixel, in false color with a legend")
       ->type_name("E.png");

@@ -125,11 +125,13 @@ Result<void> write_maps(const CompareOptions& options, const Image& a, const Ima
 }
 
 void print_outside(const MaskDifference& d, size_t pixels) {
-  std::printf("outside       %llu of %zu (%.4f %%), at most %.6g %.6g %.6g of 255 (R, G, B)\n", static_cast<unsigned long long>(d.outside), pixels,
+  std::printf("outside       %llu of %zu (%.4f %%), at most %.6g %.6g %.6g of 255 (R, G, B)\n",
+              static_cast<unsigned long long>(d.outside), pixels,
               100.0 * static_cast<double>(d.outside) / static_cast<double>(pixels), d.worst[0], d.worst[1], d.worst[2]);
   constexpr const char* kChannel[3] = {"red", "green", "blue"};
   for (const MaskDifference::Pixel& p : d.first)
-    std::printf("outside_pixel %d,%d: %s %.6g, the mask says %.6g to %.6g\n", p.x, p.y, kChannel[p.channel], p.code, p.least, p.greatest);
+    std::printf("outside_pixel %d,%d: %s %.6g, the mask says %.6g to %.6g\n", p.x, p.y, kChannel[p.channel], p.code, p.least,
+                p.greatest);
 }
 
 // Whether the picture keeps within the mask; says where not.
@@ -148,11 +150,14 @@ Result<bool> judge_mask(const CompareOptions& options, const ReadPicture& golden
             " outside of the mask: is it of the same scene, camera and settings?");
   if (!options.mask_map.empty()) {
     const double most = *std::max_element(d.excess.begin(), d.excess.end());
-    if (auto done = write_png(options.mask_map, false_color(d.excess, golden.bytes.width, golden.bytes.height, std::max(most, 1.0))); !done)
+    if (auto done =
+            write_png(options.mask_map, false_color(d.excess, golden.bytes.width, golden.bytes.height, std::max(most, 1.0)));
+        !done)
       return done.error();
   }
   if (static_cast<long long>(d.outside) <= options.max_outside) return true;
-  fail(counted(d.outside, "pixel is", "pixels are") + " outside of the mask, allowed are " + std::to_string(options.max_outside));
+  fail(counted(d.outside, "pixel is", "pixels are") + " outside of the mask, allowed are " +
+       std::to_string(options.max_outside));
   return false;
 }
 

@@ -19,7 +19,8 @@ struct CompareOptions {
   // The files to write, with the options that named them.
   std::vector<std::pair<std::string, std::string>> written() const {
     std::vector<std::pair<std::string, std::string>> list;
-    for (const auto& [option, file] : {std::pair{"--diff", &diff}, {"--error-map", &error_map}, {"--flip-map", &flip_map}, {"--mask-map", &mask_map}})
+    for (const auto& [option, file] :
+         {std::pair{"--diff", &diff}, {"--error-map", &error_map}, {"--flip-map", &flip_map}, {"--mask-map", &mask_map}})
       if (!file->empty()) list.emplace_back(option, *file);
     return list;
   }

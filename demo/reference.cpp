@@ -41,7 +41,8 @@ void check_usage(const ReferenceCommand& command, const std::string& extension) 
   if (command.mask.empty()) return;
   if (std::filesystem::path(command.mask).extension() != ".pfm")
     throw UsageError("reference: --mask writes PFM, so its file must end in .pfm: " + command.mask);
-  if (place(command.mask) == place(command.out)) throw UsageError("reference: --out and --mask are the same file: " + command.out);
+  if (place(command.mask) == place(command.out))
+    throw UsageError("reference: --out and --mask are the same file: " + command.out);
 }
 
 Result<PathPicture> render_model(const ReferenceCommand& command, const Job& job) {
@@ -68,7 +69,8 @@ Result<void> render_mask(const ReferenceCommand& command, const Job& job) {
   if (!made) return made.error();
   if (auto written = write_mask(command.mask, mask); !written) return written.error();
   std::printf("ambiguous  %.4f %% of the pixels are left open by more than 8 of 255\n", 100 * share_wider(mask, 8));
-  std::printf("open       %s mirrors that show too much to be enumerated\n", counted(mask.open, "pixel has", "pixels have").c_str());
+  std::printf("open       %s mirrors that show too much to be enumerated\n",
+              counted(mask.open, "pixel has", "pixels have").c_str());
   return {};
 }
 
@@ -109,15 +111,19 @@ void add_reference(CLI::App& app, Run& run) {
   CLI::Option* grid = command->add_option("--grid", options->grid, "N x N samples a pixel, instead of --samples")
                           ->check(CLI::Range(1, 64))
                           ->type_name("N");
-  CLI::Option* mask = command->add_option("--mask", options->mask,
-                                          "Write the ambiguity mask, too: the least and the greatest color of each pixel that errors within "
-                                          "published bounds allow, for compare --mask")
-                          ->type_name("M.pfm");
-  command->add_flag("--mask-any-footprint", options->bounds.any_opengl_footprint,
-                    "The mask allows for every level of detail that OpenGL does, instead of the model's alone")
+  CLI::Option* mask =
+      command
+          ->add_option("--mask", options->mask,
+                       "Write the ambiguity mask, too: the least and the greatest color of each pixel that errors within "
+                       "published bounds allow, for compare --mask")
+          ->type_name("M.pfm");
+  command
+      ->add_flag("--mask-any-footprint", options->bounds.any_opengl_footprint,
+                 "The mask allows for every level of detail that OpenGL does, instead of the model's alone")
       ->needs(mask);
-  command->add_option("--mask-codes", options->bounds.codes,
-                      "What the mask allows for shading in float and the step to bytes, in codes of 255; default 1")
+  command
+      ->add_option("--mask-codes", options->bounds.codes,
+                   "What the mask allows for shading in float and the step to bytes, in codes of 255; default 1")
       ->needs(mask)
       ->check(CLI::Range(0.0, 255.0))
       ->type_name("N");

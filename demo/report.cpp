@@ -68,7 +68,9 @@ void remove_old_pictures(const std::string& folder) {
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.ends_with(".png") && (name.starts_with("picture-") || name.starts_with("flip-") || name.starts_with("error-") || name.starts_with("mask-"))) old.push_back(entry.path());
+    if (name.ends_with(".png") &&
+        (name.starts_with("picture-") || name.starts_with("flip-") || name.starts_with("error-") || name.starts_with("mask-")))
+      old.push_back(entry.path());
   }
   for (const fs::path& path : old) fs::remove(path, none);
 }
@@ -107,8 +109,8 @@ int run_report(const ReportCommand& command) {
   if (!trade) return fail(trade.error());
   report.trade = std::move(trade.value());
   const Measured& plain = report.trade.settings[0];
-  Result<ReportMask> mask =
-      measure_mask(report.job, plain.candidate.settings, plain.picture, [&](double fraction) { progress.show("ambiguity mask", fraction); });
+  Result<ReportMask> mask = measure_mask(report.job, plain.candidate.settings, plain.picture,
+                                         [&](double fraction) { progress.show("ambiguity mask", fraction); });
   progress.clear();
   if (!mask) return fail(mask.error());
   report.mask = std::move(mask.value());

@@ -17,7 +17,7 @@ struct Report {
   TradeOptions options;
   std::vector<Knob> knobs;
   Trade trade;
-  ReportMask mask;  // of the plain setting
+  ReportMask mask;             // of the plain setting
   std::vector<int> dominated;  // by FLIP and median time: dominated_by of each setting
   std::vector<std::string> not_modelled;
   std::vector<std::pair<std::string, std::string>> machine;  // machine, compiler, contract, ...: enough to repeat it

@@ -32,19 +32,26 @@ Result<ReportMask> measure_mask(const Job& job, const Settings& settings, const 
 }
 
 std::string mask_section(const ReportMask& m, const std::string& png) {
-  return "<h2 id=\"ambiguity\">What errors within published bounds leave open</h2>\n<p>Vertices that move by 1/256 pixel, textures read within 1/256 texel, "
+  return "<h2 id=\"ambiguity\">What errors within published bounds leave open</h2>\n<p>Vertices that move by 1/256 pixel, "
+         "textures read within 1/256 texel, "
          "undecided depths and what they do to shadows and mirrors give each pixel a least and a greatest color. <b>" +
-         short_number(100 * m.over_8) + " %</b> of the pixels are left open by more than 8 of 255, " + short_number(100 * m.over_3) +
-         " % by more than 3; 2 is the least. " + counted(m.open, "pixel has", "pixels have") +
-         " mirrors that show too much to be enumerated. Of the plain setting's picture " + counted(m.outside, "pixel is", "pixels are") +
+         short_number(100 * m.over_8) + " %</b> of the pixels are left open by more than 8 of 255, " +
+         short_number(100 * m.over_3) + " % by more than 3; 2 is the least. " + counted(m.open, "pixel has", "pixels have") +
+         " mirrors that show too much to be enumerated. Of the plain setting's picture " +
+         counted(m.outside, "pixel is", "pixels are") +
          " outside. To judge another renderer by it: <code>spanray reference SCENE --out G.png --mask M.pfm</code>, "
-         "<code>spanray compare OTHER.png --golden G.png --mask M.pfm</code>.</p>\n<figure><img alt=\"width of the ambiguity mask\" src=\"data:image/png;base64," +
+         "<code>spanray compare OTHER.png --golden G.png --mask M.pfm</code>.</p>\n<figure><img alt=\"width of the ambiguity "
+         "mask\" src=\"data:image/png;base64," +
          base64(png) + "\"><figcaption>the widest channel of each pixel: black 0, pale yellow " + short_number(kWidest) +
          " of 255 or more</figcaption></figure>\n";
 }
 
 nlohmann::ordered_json mask_json(const ReportMask& m) {
-  return {{"share_over_3", m.over_3}, {"share_over_8", m.over_8}, {"mirrors_not_enumerated", m.open}, {"outside", m.outside}, {"seconds", m.seconds}};
+  return {{"share_over_3", m.over_3},
+          {"share_over_8", m.over_8},
+          {"mirrors_not_enumerated", m.open},
+          {"outside", m.outside},
+          {"seconds", m.seconds}};
 }
 
 }  // namespace spanray::demo

@@ -10,11 +10,11 @@
 namespace spanray::demo {
 
 struct ReportMask {
-  Image widths;                // in false color
+  Image widths;                   // in false color
   double over_3 = 0, over_8 = 0;  // shares of the pixels that are left open by more codes
-  uint64_t open = 0;           // pixels whose mirrors could not be enumerated
-  uint64_t outside = 0;        // pixels of the renderer's own picture that are outside
-  double seconds = 0;          // that it took
+  uint64_t open = 0;              // pixels whose mirrors could not be enumerated
+  uint64_t outside = 0;           // pixels of the renderer's own picture that are outside
+  double seconds = 0;             // that it took
 };
 // settings: with one sample a pixel; picture: made with them. Errors: those of make_ambiguity_mask.
 Result<ReportMask> measure_mask(const Job& job, const Settings& settings, const Image& picture, const TruthProgress& progress);

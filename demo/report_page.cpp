@@ -263,8 +263,8 @@ std::string report_page(const Report& r, const std::vector<PageImage>& images, c
           std::to_string(r.job.scene.triangle_count()) + " triangles, " + std::to_string(r.job.scene.light_count()) +
           " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") +
           " each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
-  page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + mask_section(r.mask, mask_png) + budget_tables(r) + stage_table(r) +
-          plan_section(r) + machine_section(r);
+  page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + mask_section(r.mask, mask_png) +
+          budget_tables(r) + stage_table(r) + plan_section(r) + machine_section(r);
   page += "<script>\nconst IMAGES = {\n";
   for (const PageImage& image : images) {
     page += script_string(image.id) + ": {name: " + script_string(image.name) + ", picture: \"data:image/png;base64," +

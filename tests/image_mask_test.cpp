@@ -17,12 +17,15 @@ AmbiguityMask plain(int width, int height) {
   mask.width = width, mask.height = height, mask.least.assign(values, 10), mask.greatest.assign(values, 20);
   return mask;
 }
-Image gray(int width, int height, uint8_t value) { return {width, height, std::vector<uint8_t>(static_cast<size_t>(4 * width * height), value)}; }
+Image gray(int width, int height, uint8_t value) {
+  return {width, height, std::vector<uint8_t>(static_cast<size_t>(4 * width * height), value)};
+}
 
 TEST(Mask, FilesKeepEveryBit) {
   const TempFolder folder;
   AmbiguityMask mask = plain(5, 3);
-  for (size_t i = 0; i < mask.least.size(); ++i) mask.least[i] = 0.1f * static_cast<float>(i), mask.greatest[i] = 255 - 0.3f * static_cast<float>(i);
+  for (size_t i = 0; i < mask.least.size(); ++i)
+    mask.least[i] = 0.1f * static_cast<float>(i), mask.greatest[i] = 255 - 0.3f * static_cast<float>(i);
   const std::string file = folder.file("m.pfm");
   ASSERT_TRUE(write_mask(file, mask));
   const Result<AmbiguityMask> read = read_mask(file);

@@ -41,8 +41,10 @@ TEST_F(ProgramMask, AnotherPictureIsJudgedByTheMaskAndByNothingElse) {
   EXPECT_EQ(160, map.value().width);
   EXPECT_EQ(64, map.value().height);
   EXPECT_EQ(0, run({"compare", "golden.png", "dark.png", "--mask", "m.pfm", "--max-outside", "2400"}).code);
-  EXPECT_EQ(1, run({"compare", "golden.png", "dark.png", "--mask", "m.pfm", "--max-outside", "2400", "--max-wrong", "0"}).code) << "asked for both";
-  EXPECT_EQ(1, run({"compare", "golden.png", "dark.png", "--mask", "m.pfm", "--max-outside", "2400", "--max-error", "max=0"}).code);
+  EXPECT_EQ(1, run({"compare", "golden.png", "dark.png", "--mask", "m.pfm", "--max-outside", "2400", "--max-wrong", "0"}).code)
+      << "asked for both";
+  EXPECT_EQ(
+      1, run({"compare", "golden.png", "dark.png", "--mask", "m.pfm", "--max-outside", "2400", "--max-error", "max=0"}).code);
   // The wrong golden is told.
   ran = run({"compare", "golden.png", "--golden", "dark.png", "--mask", "m.pfm"});
   EXPECT_EQ(0, ran.code) << ran.error;
@@ -50,12 +52,15 @@ TEST_F(ProgramMask, AnotherPictureIsJudgedByTheMaskAndByNothingElse) {
 }
 
 TEST_F(ProgramMask, BoundsAreOptions) {
-  for (const auto& [file, more] : {std::pair<const char*, std::vector<std::string>>{"a.pfm", {}}, {"b.pfm", {"--mask-codes", "3"}}, {"c.pfm", {"--mask-any-footprint"}}}) {
+  for (const auto& [file, more] : {std::pair<const char*, std::vector<std::string>>{"a.pfm", {}},
+                                   {"b.pfm", {"--mask-codes", "3"}},
+                                   {"c.pfm", {"--mask-any-footprint"}}}) {
     std::vector<std::string> arguments = {"--mask", file};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(0, picture("reference", "truth.png", arguments).code);
   }
-  const Result<AmbiguityMask> a = read_mask(folder_.file("a.pfm")), b = read_mask(folder_.file("b.pfm")), c = read_mask(folder_.file("c.pfm"));
+  const Result<AmbiguityMask> a = read_mask(folder_.file("a.pfm")), b = read_mask(folder_.file("b.pfm")),
+                              c = read_mask(folder_.file("c.pfm"));
   ASSERT_TRUE(a && b && c);
   const double share = share_wider(a.value(), 4);
   EXPECT_LT(share, 0.1);
@@ -66,8 +71,12 @@ TEST_F(ProgramMask, BoundsAreOptions) {
 TEST_F(ProgramMask, WrongUseAndBrokenMasksAreErrors) {
   EXPECT_EQ(0, picture("render", "a.png").code);
   EXPECT_EQ(0, picture("reference", "t.png", {"--mask", "m.pfm"}).code);
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--mask", "m.png"}, {"--mask", "m.exr"}, {"--mask-codes", "1"}, {"--mask-any-footprint"},
-                                                {"--mask", "n.pfm", "--mask-codes", "-1"}, {"--mask", "n.pfm", "--paths", "1"}})
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--mask", "m.png"},
+                                                {"--mask", "m.exr"},
+                                                {"--mask-codes", "1"},
+                                                {"--mask-any-footprint"},
+                                                {"--mask", "n.pfm", "--mask-codes", "-1"},
+                                                {"--mask", "n.pfm", "--paths", "1"}})
     EXPECT_EQ(2, picture("reference", "u.png", wrong).code) << wrong.back();
   EXPECT_EQ(2, picture("reference", "u.pfm", {"--mask", "./u.pfm"}).code);
   EXPECT_EQ(1, picture("reference", "u.png", {"--mask", "no/m.pfm"}).code);

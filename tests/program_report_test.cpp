@@ -290,7 +290,8 @@ TEST(ProgramReport, ItsNumbersAreThoseOfItsPictures) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing from elsewhere";
   EXPECT_EQ(page.find("<b>&."), std::string::npos) << "the name of the scene is escaped";
   EXPECT_NE(page.find("a&lt;b&gt;&amp;.obj"), std::string::npos);
-  EXPECT_EQ(count_of(page, "data:image/png;base64,"), 1 + 2 * rows.size() + 1) << "truth, settings and their maps, the mask's widths";
+  EXPECT_EQ(count_of(page, "data:image/png;base64,"), 1 + 2 * rows.size() + 1)
+      << "truth, settings and their maps, the mask's widths";
   const nlohmann::json& ambiguity = json["ambiguity"];
   EXPECT_EQ(ambiguity["outside"], 0);
   EXPECT_GT(ambiguity["share_over_8"], 0);

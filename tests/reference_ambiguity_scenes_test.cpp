@@ -1,4 +1,5 @@
-// The ambiguity mask on the shipped scenes: the renderer's own pictures and those of moved vertices lie within, others do not, and it is narrow.
+// The ambiguity mask on the shipped scenes: the renderer's own pictures and those of moved vertices lie within, others do not,
+// and it is narrow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +44,8 @@ uint64_t outside(const Image& image, const AmbiguityMask& mask) {
   const Result<MaskDifference> difference = compare_with_mask(image, mask);
   EXPECT_TRUE(difference);
   for (const MaskDifference::Pixel& p : difference.value().first)
-    if (difference.value().outside < 20) std::printf("outside: %d,%d channel %d is %g, %g to %g\n", p.x, p.y, p.channel, p.code, p.least, p.greatest);
+    if (difference.value().outside < 20)
+      std::printf("outside: %d,%d channel %d is %g, %g to %g\n", p.x, p.y, p.channel, p.code, p.least, p.greatest);
   return difference.value().outside;
 }
 Settings small(const Scene& scene) {
@@ -68,7 +70,8 @@ TEST_P(AmbiguityOfScenes, HoldsBothRenderersPicturesAndIsNarrow) {
   const std::vector<float> widths = mask_widths(mask);
   std::vector<float> sorted = widths;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
-  std::printf("%s: %.4f %% wider than 8, median width %.3f\n", c.name, 100 * share_wider(mask, 8), static_cast<double>(sorted[sorted.size() / 2]));
+  std::printf("%s: %.4f %% wider than 8, median width %.3f\n", c.name, 100 * share_wider(mask, 8),
+              static_cast<double>(sorted[sorted.size() / 2]));
   EXPECT_LE(share_wider(mask, 8), c.most_wide);
   EXPECT_GT(share_wider(mask, 8), 0.0005) << "there are edges in every picture";
   EXPECT_LE(sorted[sorted.size() / 2], 3.0f);
@@ -79,8 +82,9 @@ void as_it_is(Settings&) {}
 INSTANTIATE_TEST_SUITE_P(
     Shipped, AmbiguityOfScenes,
     ::testing::Values(
-        Case{"cornell", "cornell", as_it_is, 0.01}, Case{"spheres", "spheres", as_it_is, 0.05}, Case{"columns", "columns", as_it_is, 0.02},
-        Case{"gauze", "gauze", as_it_is, 0.02}, Case{"glass", "glass", as_it_is, 0.02}, Case{"hall", "hall", as_it_is, 0.04},
+        Case{"cornell", "cornell", as_it_is, 0.01}, Case{"spheres", "spheres", as_it_is, 0.05},
+        Case{"columns", "columns", as_it_is, 0.02}, Case{"gauze", "gauze", as_it_is, 0.02},
+        Case{"glass", "glass", as_it_is, 0.02}, Case{"hall", "hall", as_it_is, 0.04},
         Case{"orrery", "orrery", [](Settings& s) { s.time = 3; }, 0.02}, Case{"hall, camera 1", "hall", as_it_is, 0.04, 1},
         Case{"spheres, Gouraud", "spheres", [](Settings& s) { s.shading = Shading::kGouraud; }, 0.05},
         Case{"columns, flat", "columns", [](Settings& s) { s.shading = Shading::kFlat; }, 0.02},
@@ -89,13 +93,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"glass, screen-door", "glass", [](Settings& s) { s.transparency = Transparency::kScreenDoor; }, 0.02},
         Case{"gauze, blended", "gauze", [](Settings& s) { s.transparency = Transparency::kAlpha; }, 0.02},
         Case{"gauze, culled", "gauze", [](Settings& s) { s.culling = Culling::kBack; }, 0.02},
-        Case{"columns, 4 samples", "columns", [](Settings& s) { s.samples = 4, s.antialiasing = Antialiasing::kSupersample; }, 0.04},
+        Case{"columns, 4 samples", "columns", [](Settings& s) { s.samples = 4, s.antialiasing = Antialiasing::kSupersample; },
+             0.04},
         Case{"hall, plain", "hall", [](Settings& s) { s.textures = s.bump = false, s.shadows = Shadows::kNone; }, 0.04}));
 
 // The camera turned so that the picture moves by a part of a pixel.
 Camera turned(const Camera& camera, const Settings& settings, double pixels) {
   const reference::View view(camera, settings.width, settings.height);
-  const double distance = length3(glm::dvec3(camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1], camera.target[2] - camera.eye[2]));
+  const double distance =
+      length3(glm::dvec3(camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1], camera.target[2] - camera.eye[2]));
   const glm::dvec3 move = (view.right + view.down) * (pixels * distance);
   Camera result = camera;
   for (int k = 0; k < 3; ++k) result.target[k] += move[k];
@@ -109,22 +115,27 @@ TEST(AmbiguityOfScenes, APictureThatMovedByLessIsWithinAndOneThatMovedByHalfAPix
     const Camera& camera = scene.cameras()[0];
     const AmbiguityMask mask = mask_of(scene, camera, settings);
     // A third: toward the corners, turning moves the picture by more. Our own rasterizer then adds up to 1/512.
-    for (const double part : {-0.33, 0.33}) EXPECT_EQ(outside(picture(scene, turned(camera, settings, part / 256), settings), mask), 0u) << name;
+    for (const double part : {-0.33, 0.33})
+      EXPECT_EQ(outside(picture(scene, turned(camera, settings, part / 256), settings), mask), 0u) << name;
     const size_t pixels = 160 * 90;
     EXPECT_GT(outside(picture(scene, turned(camera, settings, 0.5), settings), mask), pixels / 5) << name;
-    EXPECT_GT(outside(picture(scene, turned(camera, settings, 0.03), settings), mask), pixels / 1000) << name << ", eight times the bound";
+    EXPECT_GT(outside(picture(scene, turned(camera, settings, 0.03), settings), mask), pixels / 1000)
+        << name << ", eight times the bound";
   }
 }
 
 // The scene with every vertex moved in the plane of the picture, by up to so many pixels, each place on its own.
 Scene jittered(const TempFolder& folder, const char* name, const Camera& camera, const Settings& settings, double pixels) {
   const reference::View view(camera, settings.width, settings.height);
-  std::filesystem::copy(SPANRAY_SOURCE_DIR "/assets", folder.path(), std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy(SPANRAY_SOURCE_DIR "/assets", folder.path(),
+                        std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
   std::ifstream in(std::string(SPANRAY_SOURCE_DIR) + "/assets/" + name + ".obj");
   std::ofstream out(folder.file(std::string(name) + ".obj"));
   std::map<std::string, glm::dvec2> moves;  // vertices at one place move together
   uint64_t random = 1;
-  const auto next = [&] { return random = random * 6364136223846793005u + 1442695040888963407u, 2 * static_cast<double>(random >> 11) * 0x1p-53 - 1; };
+  const auto next = [&] {
+    return random = random * 6364136223846793005u + 1442695040888963407u, 2 * static_cast<double>(random >> 11) * 0x1p-53 - 1;
+  };
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("v ", 0) == 0) {
       if (moves.count(line) == 0) moves[line] = glm::dvec2(next(), next()) * pixels;
@@ -156,7 +167,12 @@ TEST(AmbiguityOfScenes, AMeshWhoseVerticesMovedWithinTheBoundIsWithin) {
 }
 
 TEST(AmbiguityOfScenes, WhatIsRenderedWronglyIsNotWithin) {
-  struct Wrong { const char* name; const char* scene; void (*change)(Settings&); uint64_t least; };
+  struct Wrong {
+    const char* name;
+    const char* scene;
+    void (*change)(Settings&);
+    uint64_t least;
+  };
   for (const Wrong& wrong : {Wrong{"no shadows", "columns", [](Settings& s) { s.shadows = Shadows::kNone; }, 1000},
                              Wrong{"no bump", "columns", [](Settings& s) { s.bump = false; }, 500},
                              Wrong{"nearest", "columns", [](Settings& s) { s.filter = Filter::kNearest; }, 1000},

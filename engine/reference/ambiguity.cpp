@@ -22,17 +22,20 @@ struct Layer {
   Range alpha;
 };
 
-// From curved mirror to curved mirror a bundle spreads until it sees half the scene; then its color is left open, from black to anything.
+// From curved mirror to curved mirror a bundle spreads until it sees half the scene; then its color is left open, from black to
+// anything.
 struct Work {
   static constexpr int kMostBundles = 48;
-  static constexpr size_t kMostPieces = 24, kMostCandidates = 200;  // seen in a mirror by one of them, and before hidden ones are left out
+  static constexpr size_t kMostPieces = 24,
+                          kMostCandidates = 200;  // seen in a mirror by one of them, and before hidden ones are left out
   int bundles = 0;
   bool open = false;
 };
 
 class MaskRenderer {
  public:
-  MaskRenderer(const SceneData& scene, const Camera& camera, const Settings& settings, const ReferenceOptions& options, const AmbiguityBounds& bounds)
+  MaskRenderer(const SceneData& scene, const Camera& camera, const Settings& settings, const ReferenceOptions& options,
+               const AmbiguityBounds& bounds)
       : settings_(settings),
         bounds_(bounds),
         view_(camera, settings.width, settings.height),
@@ -52,8 +55,8 @@ class MaskRenderer {
   }
 
  private:
-  // All pieces of a tree that may be seen; farthest: the greatest depth at which one can be that the center's ray meets for certain.
-  // More than `most` candidates: some of them, all useless.
+  // All pieces of a tree that may be seen; farthest: the greatest depth at which one can be that the center's ray meets for
+  // certain. More than `most` candidates: some of them, all useless.
   std::vector<Piece> pieces_of(const Tree& tree, const Bundle& bundle, size_t most, double& farthest) const;
   std::vector<Layer> layers_of(const Bundle& bundle, double farthest) const;
   ColorRange radiance(const Bundle& bundle, int bounce, Work& work) const;
@@ -70,23 +73,28 @@ class MaskRenderer {
 std::vector<Piece> MaskRenderer::pieces_of(const Tree& tree, const Bundle& bundle, size_t most, double& farthest) const {
   std::vector<Piece> pieces;
   double limit = farthest;
-  tree.visit_region(
-      [&](const glm::dvec3& low, const glm::dvec3& high) { return bundle.beam.misses(low, high); },
-      [&](uint32_t primitive, const glm::dvec3 (&v)[3]) {
-        if (!shader_.gather(RangeShader::For::kSight, bundle.beam, primitive, v, [&](const glm::dvec3& x) { return bundle.through(x); }, pieces)) return false;
-        Piece& p = pieces.back();
-        p.near = kFar, p.far = 0;
-        for (const glm::dvec3& x : p.corner) p.near = std::min(p.near, bundle.depth(x)), p.far = std::max(p.far, bundle.depth(x));
-        p.near *= 1 - bounds_.depth, p.far *= 1 + bounds_.depth;
-        if (&tree == &world_.opaque && p.certain && !p.cut && !p.crosses[0] && !p.crosses[1] && !p.crosses[2]) limit = std::min(limit, p.far);
-        if (p.near > limit) pieces.pop_back();
-        return pieces.size() > most;
-      });
+  tree.visit_region([&](const glm::dvec3& low, const glm::dvec3& high) { return bundle.beam.misses(low, high); },
+                    [&](uint32_t primitive, const glm::dvec3(&v)[3]) {
+                      if (!shader_.gather(
+                              RangeShader::For::kSight, bundle.beam, primitive, v,
+                              [&](const glm::dvec3& x) { return bundle.through(x); }, pieces))
+                        return false;
+                      Piece& p = pieces.back();
+                      p.near = kFar, p.far = 0;
+                      for (const glm::dvec3& x : p.corner)
+                        p.near = std::min(p.near, bundle.depth(x)), p.far = std::max(p.far, bundle.depth(x));
+                      p.near *= 1 - bounds_.depth, p.far *= 1 + bounds_.depth;
+                      if (&tree == &world_.opaque && p.certain && !p.cut && !p.crosses[0] && !p.crosses[1] && !p.crosses[2])
+                        limit = std::min(limit, p.far);
+                      if (p.near > limit) pieces.pop_back();
+                      return pieces.size() > most;
+                    });
   if (pieces.size() > most) return pieces;
   const auto hidden = [&](const Piece& p) { return p.near > limit; };
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(), hidden), pieces.end());
   if (&tree != &world_.opaque) return pieces;
-  for (const Sheet& sheet : make_sheets(pieces, [&](const glm::dvec3& x) { return bundle.bends() ? bundle.axis : x - bundle.beam.origin; })) {
+  for (const Sheet& sheet :
+       make_sheets(pieces, [&](const glm::dvec3& x) { return bundle.bends() ? bundle.axis : x - bundle.beam.origin; })) {
     if (!sheet.closed) continue;
     double far = 0;
     for (const size_t i : sheet.pieces) far = std::max(far, pieces[i].far);
@@ -101,7 +109,8 @@ std::vector<Layer> MaskRenderer::layers_of(const Bundle& bundle, double farthest
   std::vector<Layer> layers;
   if (world_.blended.empty()) return layers;
   const std::vector<Piece> pieces = pieces_of(world_.blended, bundle, SIZE_MAX, farthest);
-  for (const Sheet& sheet : make_sheets(pieces, [&](const glm::dvec3& x) { return bundle.bends() ? bundle.axis : x - bundle.beam.origin; })) {
+  for (const Sheet& sheet :
+       make_sheets(pieces, [&](const glm::dvec3& x) { return bundle.bends() ? bundle.axis : x - bundle.beam.origin; })) {
     Layer layer{kFar, 0, {}, {1, 0}};
     for (const size_t i : sheet.pieces) {
       const Seen seen = shader_.see(bundle, pieces[i]);
@@ -145,7 +154,8 @@ ColorRange blend(std::vector<Layer> layers, double near, double far, ColorRange 
   }
   for (auto begin = layers.begin(); begin != layers.end();) {
     auto end = begin + 1;
-    for (double nearest = begin->near; end != layers.end() && end->far >= nearest; ++end) nearest = std::min(nearest, end->near);
+    for (double nearest = begin->near; end != layers.end() && end->far >= nearest; ++end)
+      nearest = std::min(nearest, end->near);
     color = blend_alike(begin, end, color), begin = end;
   }
   return color;
@@ -184,8 +194,8 @@ ColorRange MaskRenderer::radiance(const Bundle& bundle, int bounce, Work& work) 
 }  // namespace
 }  // namespace reference
 
-Result<void> make_ambiguity_mask(const Scene& scene, const Camera& camera, const Settings& settings, const ReferenceOptions& options,
-                                 const AmbiguityBounds& bounds, AmbiguityMask& out) {
+Result<void> make_ambiguity_mask(const Scene& scene, const Camera& camera, const Settings& settings,
+                                 const ReferenceOptions& options, const AmbiguityBounds& bounds, AmbiguityMask& out) {
   if (!scene.valid()) return Error{"ambiguity mask: there is no scene"};
   if (Result<void> checked = reference::check_request(scene.data(), settings, options.grid); !checked) return checked;
   const Scene standing = scene_at(scene, settings.time);

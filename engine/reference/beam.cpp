@@ -43,7 +43,8 @@ bool runs_through(const Beam& beam, const glm::dvec3& a, const glm::dvec3& b) {
   return from <= to;
 }
 
-// Planes through the polygon's edges and the light. False for a polygon that the light sees edge-on: it has none that mean anything.
+// Planes through the polygon's edges and the light. False for a polygon that the light sees edge-on: it has none that mean
+// anything.
 bool add_prism(Beam& beam, const std::vector<glm::dvec3>& polygon, const std::function<glm::dvec3(const glm::dvec3&)>& to_light,
                double error) {
   double widest = 0;
@@ -60,7 +61,8 @@ bool add_prism(Beam& beam, const std::vector<glm::dvec3>& polygon, const std::fu
   return beam.sides.size() >= 3;
 }
 
-// Half-spaces of a box around the lines through `polygon` along d, as wide as the polygon and `error`; rays that meet in a light stay within.
+// Half-spaces of a box around the lines through `polygon` along d, as wide as the polygon and `error`; rays that meet in a
+// light stay within.
 void add_box(Beam& beam, const std::vector<glm::dvec3>& polygon, const glm::dvec3& d, double error) {
   glm::dvec3 longest(0), u, v;
   for (const glm::dvec3& a : polygon)
@@ -131,7 +133,8 @@ Bundle mirrored_bundle(const std::vector<Ray>& rays, const glm::dvec3& normal, d
       const glm::dvec3 from = ray.line.origin - origin;
       const double along = std::max(dot3(ray.line.direction, bundle.axis), 1e-3 * length3(ray.line.direction));
       const auto widen = [&](const glm::dvec3& side, double& start, double& spread) {
-        start = std::max(start, std::fabs(dot3(from, side))), spread = std::max(spread, std::fabs(dot3(ray.line.direction, side)) / along);
+        start = std::max(start, std::fabs(dot3(from, side))),
+        spread = std::max(spread, std::fabs(dot3(ray.line.direction, side)) / along);
       };
       widen(tried.u, tried.start_u, tried.spread_u), widen(tried.v, tried.start_v, tried.spread_v);
     }
@@ -154,7 +157,8 @@ Beam shadow_beam(const std::vector<glm::dvec3>& polygon, const glm::dvec3& norma
   beam.origin = middle(polygon);
   const bool point = light.kind == static_cast<int32_t>(LightKind::kPoint);
   const glm::dvec3 way = point ? to_dvec(light.position) - beam.origin : -to_dvec(light.direction), d = normalize3(way, normal);
-  if (!add_prism(beam, polygon, [&](const glm::dvec3& x) { return point ? to_dvec(light.position) - x : d; }, error))
+  if (!add_prism(
+          beam, polygon, [&](const glm::dvec3& x) { return point ? to_dvec(light.position) - x : d; }, error))
     beam.sides.clear(), add_box(beam, polygon, d, error);
   beam.ends.push_back({-normal, -error});
   if (point) beam.ends.push_back({d, length3(way) * (1 - 0x1p-16)});
@@ -187,7 +191,8 @@ glm::dvec3 middle(const std::vector<glm::dvec3>& polygon) {
   return sum * (1 / static_cast<double>(polygon.size()));
 }
 
-std::vector<Sheet> make_sheets(const std::vector<Piece>& pieces, const std::function<glm::dvec3(const glm::dvec3&)>& direction) {
+std::vector<Sheet> make_sheets(const std::vector<Piece>& pieces,
+                               const std::function<glm::dvec3(const glm::dvec3&)>& direction) {
   std::vector<size_t> parent(pieces.size());
   std::iota(parent.begin(), parent.end(), size_t{0});
   const auto root = [&](size_t i) {

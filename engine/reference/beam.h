@@ -16,13 +16,13 @@ struct HalfSpace {
 
 struct Beam {
   glm::dvec3 origin{0};
-  std::vector<HalfSpace> sides;  // all rays of the bundle run within these
-  std::vector<HalfSpace> ends;   // and begin and end at these
+  std::vector<HalfSpace> sides;                                      // all rays of the bundle run within these
+  std::vector<HalfSpace> ends;                                       // and begin and end at these
   bool misses(const glm::dvec3& low, const glm::dvec3& high) const;  // a box that lies outside of one of them
 };
 
-// What a bundle of rays may do: start anywhere within +-start of the center's origin along u and v, and spread by +-spread for each
-// unit along the axis.
+// What a bundle of rays may do: start anywhere within +-start of the center's origin along u and v, and spread by +-spread for
+// each unit along the axis.
 struct Bundle {
   Ray center;  // its footprint is that of all
   glm::dvec3 axis{0}, u{0}, v{0};
@@ -37,8 +37,8 @@ struct Bundle {
 
 // Through the pixel position of a primary ray and all within +-reach pixels of it, in x and in y, from the near plane on.
 Bundle primary_bundle(const View& view, const Ray& center, double reach);
-// Mirrored rays (the first: the center), all of which start on a surface with this unit normal; `error`: of positions, in the scene's
-// units.
+// Mirrored rays (the first: the center), all of which start on a surface with this unit normal; `error`: of positions, in the
+// scene's units.
 Bundle mirrored_bundle(const std::vector<Ray>& rays, const glm::dvec3& normal, double error);
 // From a convex polygon on a surface to a light. `error` as above.
 Beam shadow_beam(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal, const Light& light, double error);
@@ -59,8 +59,8 @@ glm::dvec3 middle(const std::vector<glm::dvec3>& polygon);
 // Pieces that hang together within a beam: over edges that run through it, and not folded there as the beam sees them.
 struct Sheet {
   std::vector<size_t> pieces;
-  // No border of it runs through the beam: whatever happens to its vertices, as long as no point moves by more than the beam is wide and
-  // triangles that share an edge go on sharing it, the ray at the beam's center meets it.
+  // No border of it runs through the beam: whatever happens to its vertices, as long as no point moves by more than the beam is
+  // wide and triangles that share an edge go on sharing it, the ray at the beam's center meets it.
   bool closed = true;
 };
 // direction: of the rays, at any point of the beam.

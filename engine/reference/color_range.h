@@ -7,8 +7,12 @@
 
 namespace spanray::reference {
 
-inline glm::dvec3 least(const glm::dvec3& a, const glm::dvec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-inline glm::dvec3 most(const glm::dvec3& a, const glm::dvec3& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+inline glm::dvec3 least(const glm::dvec3& a, const glm::dvec3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline glm::dvec3 most(const glm::dvec3& a, const glm::dvec3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 
 // low <= high in every channel; all values that this file makes ranges of are 0 or more. A new one holds nothing.
 struct ColorRange {
@@ -35,15 +39,16 @@ inline ColorRange over(const ColorRange& c, const Range& alpha, const ColorRange
   return {least(sum.low, other.low), most(sum.high, other.high)};
 }
 
-// A function's range over a small region, from its values at the middle, at the region's corners, and at the middle with errors of reading
-// (nudges): to first order the two deviations add. `more`: times so much, for what is not of first order.
+// A function's range over a small region, from its values at the middle, at the region's corners, and at the middle with errors
+// of reading (nudges): to first order the two deviations add. `more`: times so much, for what is not of first order.
 class Spread {
  public:
   void middle(const glm::dvec3& v) { at_ = v, corners_.add(v), nudges_.add(v); }
   void corner(const glm::dvec3& v) { corners_.add(v); }
   void nudge(const glm::dvec3& v) { nudges_.add(v); }
   ColorRange range(double more = 1.25) const {
-    const glm::dvec3 low = at_ - (at_ - corners_.low + at_ - nudges_.low) * more, high = at_ + (corners_.high - at_ + nudges_.high - at_) * more;
+    const glm::dvec3 low = at_ - (at_ - corners_.low + at_ - nudges_.low) * more,
+                     high = at_ + (corners_.high - at_ + nudges_.high - at_) * more;
     return {most(low, glm::dvec3(0)), high};
   }
 

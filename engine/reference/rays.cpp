@@ -15,8 +15,9 @@ glm::dvec3 of_unit(const glm::dvec3& d, double length, const glm::dvec3& derivat
 
 }  // namespace
 
-// A grid: one sample in each of grid x grid squares, and in each of grid^2 columns and rows, so that upright and level edges are
-// measured as finely as slanted ones. Source: Chiu, Shirley, Wang 1994, "Multi-Jittered Sampling", the canonical arrangement, not jittered.
+// A grid: one sample in each of grid x grid squares, and in each of grid^2 columns and rows, so that upright and level edges
+// are measured as finely as slanted ones. Source: Chiu, Shirley, Wang 1994, "Multi-Jittered Sampling", the canonical
+// arrangement, not jittered.
 Places make_places(const Settings& settings, int grid) {
   Places places;
   if (grid > 0) {

@@ -7,7 +7,8 @@
 
 namespace spanray::reference {
 
-// Places in a pixel where it is sampled, from its upper left corner, in pixels, and the side of the square that each stands for.
+// Places in a pixel where it is sampled, from its upper left corner, in pixels, and the side of the square that each stands
+// for.
 struct Places {
   std::vector<glm::dvec2> at;
   double side = 1;

@@ -9,7 +9,7 @@ namespace spanray::reference {
 namespace {
 
 constexpr double kMoreInMirrors = 1.5;  // how much wider than its samples a highlight is taken there
-constexpr double kGrazing = 0x1p-16;  // cosines as small as this may be of either sign
+constexpr double kGrazing = 0x1p-16;    // cosines as small as this may be of either sign
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool any(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
@@ -44,7 +44,8 @@ Range RangeShader::moved_levels(const Bundle& bundle, const Piece& piece) const 
 
 std::vector<Nudge> RangeShader::nudges(const Material& m, const Range& levels) const {
   std::vector<Nudge> list;
-  for (const int32_t map : {m.map_ambient, m.map_diffuse, m.map_specular, m.map_shininess, m.map_emission, m.map_opacity, m.map_bump, m.map_normal})
+  for (const int32_t map :
+       {m.map_ambient, m.map_diffuse, m.map_specular, m.map_shininess, m.map_emission, m.map_opacity, m.map_bump, m.map_normal})
     if (map >= 0) {
       const double low = levels.low - bounds_.levels, high = levels.high + bounds_.levels;
       const int steps = 1 + static_cast<int>(std::ceil(high - low)), footprint = bounds_.any_opengl_footprint ? 1 : 0;
@@ -79,11 +80,13 @@ bool RangeShader::add(const Bundle& bundle, const Piece& piece, const glm::dvec3
   (sums.base.*how)(base), (sums.mirror.*how)(s.mirror), (sums.alpha.*how)(glm::dvec3(std::clamp(s.opacity, 0.0, 1.0)));
   for (size_t i = 0; i < world_.lights.size(); ++i) {
     const Light& light = world_.lights[i];
-    const glm::dvec3 way = incidence(light, s.position).direction, sum = reflected(world_.scene, settings_.shading, s, light, ray.line.origin);
+    const glm::dvec3 way = incidence(light, s.position).direction,
+                     sum = reflected(world_.scene, settings_.shading, s, light, ray.line.origin);
     const double side = dot3(s.geometric, way), cosine = settings_.shading == Shading::kPhong ? dot3(s.normal, way) : side;
     (sums.lights[i].*how)(side > 0 && finite(sum) ? sum : glm::dvec3(0));
     // Highlights begin with a step where the light passes the horizon.
-    if (std::fabs(side) < kGrazing || std::fabs(cosine) < kGrazing) sums.lights[i].corner(glm::dvec3(0)), sums.lights[i].corner(finite(sum) ? sum : glm::dvec3(0));
+    if (std::fabs(side) < kGrazing || std::fabs(cosine) < kGrazing)
+      sums.lights[i].corner(glm::dvec3(0)), sums.lights[i].corner(finite(sum) ? sum : glm::dvec3(0));
   }
   if (settings_.reflections != Reflections::kNone && any(s.mirror)) sums.mirrored.push_back(mirrored_ray(ray, s));
   return true;
@@ -105,8 +108,9 @@ RangeShader::Lit RangeShader::lit(const Bundle& bundle, const Piece& piece, cons
   std::vector<Piece> pieces;
   bool stopped = false;
   world_.opaque.visit_region([&](const glm::dvec3& low, const glm::dvec3& high) { return beam.misses(low, high); },
-                             [&](uint32_t primitive, const glm::dvec3 (&v)[3]) {
-                               if (primitive == piece.primitive || !gather(For::kShadow, beam, primitive, v, ray_to, pieces)) return false;
+                             [&](uint32_t primitive, const glm::dvec3(&v)[3]) {
+                               if (primitive == piece.primitive || !gather(For::kShadow, beam, primitive, v, ray_to, pieces))
+                                 return false;
                                const Piece& p = pieces.back();
                                stopped = p.certain && !p.cut && !p.crosses[0] && !p.crosses[1] && !p.crosses[2];
                                return stopped || pieces.size() > kMostBlockers;
@@ -132,7 +136,8 @@ Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
     const glm::dvec3 &x = piece.corner[i], &next = piece.corner[(i + 1) % piece.corner.size()];
     add(bundle, piece, x, {}, &Spread::corner, sums);
     if (!bundle.bends()) continue;  // in mirrors a piece may be large, and light far from linear on it
-    add(bundle, piece, (x + next) * 0.5, {}, &Spread::corner, sums), add(bundle, piece, (x + at) * 0.5, {}, &Spread::corner, sums);
+    add(bundle, piece, (x + next) * 0.5, {}, &Spread::corner, sums),
+        add(bundle, piece, (x + at) * 0.5, {}, &Spread::corner, sums);
   }
   for (const Nudge& nudge : nudges(world_.surfaces.material(piece.primitive), moved_levels(bundle, piece)))
     add(bundle, piece, at, nudge, &Spread::nudge, sums);

@@ -1,4 +1,5 @@
-// What light does on a piece of a surface, as ranges: over all its points, all errors of reading textures, and shadows that may or may not be.
+// What light does on a piece of a surface, as ranges: over all its points, all errors of reading textures, and shadows that may
+// or may not be.
 #pragma once
 #include "frame/ambiguity_mask.h"
 #include "reference/beam.h"
@@ -9,12 +10,12 @@ namespace spanray::reference {
 
 // A piece of a surface as a bundle of rays sees it.
 struct Seen {
-  ColorRange color;            // of the light that it gives back and emits, mirrors aside
-  ColorRange mirror;           // weight of mirrored radiance
-  Range alpha;                 // opacity
-  std::vector<Ray> mirrored;   // the first: of the piece's middle; empty where nothing is mirrored
-  glm::dvec3 normal{0};        // geometric, toward the viewer
-  double error = 0;            // of positions on it, in the scene's units
+  ColorRange color;           // of the light that it gives back and emits, mirrors aside
+  ColorRange mirror;          // weight of mirrored radiance
+  Range alpha;                // opacity
+  std::vector<Ray> mirrored;  // the first: of the piece's middle; empty where nothing is mirrored
+  glm::dvec3 normal{0};       // geometric, toward the viewer
+  double error = 0;           // of positions on it, in the scene's units
 };
 
 class RangeShader {
@@ -23,11 +24,12 @@ class RangeShader {
       : world_(world), settings_(settings), bounds_(bounds) {}
 
   Seen see(const Bundle& bundle, const Piece& piece) const;
-  // Adds the part of a triangle that lies in the beam, if cut-outs, screen-door and (not for shadows) culling may let it stop rays; false if
-  // nothing was added. ray_to: the ray through a point.
+  // Adds the part of a triangle that lies in the beam, if cut-outs, screen-door and (not for shadows) culling may let it stop
+  // rays; false if nothing was added. ray_to: the ray through a point.
   enum class For { kSight, kShadow };
   template <class RayTo>
-  bool gather(For what, const Beam& beam, uint32_t primitive, const glm::dvec3 (&v)[3], const RayTo& ray_to, std::vector<Piece>& pieces) const {
+  bool gather(For what, const Beam& beam, uint32_t primitive, const glm::dvec3 (&v)[3], const RayTo& ray_to,
+              std::vector<Piece>& pieces) const {
     Piece piece = clip(beam, primitive, v);
     if (piece.corner.empty()) return false;
     const Ray ray = ray_to(middle(piece.corner));
@@ -46,7 +48,8 @@ class RangeShader {
   enum class Lit { kNo, kMaybe, kYes };
   struct Sums;
   Range stop_opacity(const Piece& piece, const std::function<Ray(const glm::dvec3&)>& ray_to) const;
-  bool add(const Bundle& bundle, const Piece& piece, const glm::dvec3& at, const Nudge& nudge, void (Spread::*how)(const glm::dvec3&), Sums& sums) const;
+  bool add(const Bundle& bundle, const Piece& piece, const glm::dvec3& at, const Nudge& nudge,
+           void (Spread::*how)(const glm::dvec3&), Sums& sums) const;
   Lit lit(const Bundle& bundle, const Piece& piece, const Seen& seen, const Light& light) const;
   // How else textures may be read on a material; levels: how far the level of detail may be off beside bounds.levels.
   std::vector<Nudge> nudges(const Material& material, const Range& levels) const;

@@ -98,8 +98,8 @@ bool Surfaces::culled(const Ray& ray, uint32_t primitive) const {
   if (settings_.culling != Culling::kBack) return false;
   const Triangle& triangle = scene_.triangles[primitive];
   const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
-  const glm::dvec3 n =
-      cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0, to_dvec(scene_.vertices[triangle.vertex[2]].position) - v0);
+  const glm::dvec3 n = cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0,
+                              to_dvec(scene_.vertices[triangle.vertex[2]].position) - v0);
   const double side = dot3(n, ray.line.origin - v0);
   return !((triangle.bits & kTriangleFlipped) != 0 ? side < 0 : side > 0);
 }

@@ -41,7 +41,8 @@ class Surfaces {
   Surface at(const Ray& ray, uint32_t primitive, const Nudge& nudge = {}) const;
   // Do cut-outs and screen-door let the surface stop the ray? And does culling?
   bool stops(const Ray& ray, uint32_t primitive) const;
-  // Its parts: what culling says; the opacity that cut-outs and screen-door go by (1 for other surfaces), and what follows from it.
+  // Its parts: what culling says; the opacity that cut-outs and screen-door go by (1 for other surfaces), and what follows from
+  // it.
   bool culled(const Ray& ray, uint32_t primitive) const;
   double stop_opacity(const Ray& ray, uint32_t primitive, const Nudge& nudge = {}) const;
   bool stops(const Ray& ray, uint32_t primitive, double opacity) const;

@@ -12,7 +12,9 @@ int level_size(int size, int level) { return std::max(1, size >> level); }
 double footprint(const Coordinates& at, double width, double height) {
   const double ux = std::fabs(at.du_dx) * width, uy = std::fabs(at.du_dy) * width, vx = std::fabs(at.dv_dx) * height,
                vy = std::fabs(at.dv_dy) * height, mu = std::max(ux, uy), mv = std::max(vx, vy);
-  return at.nudge.footprint < 0 ? std::max(mu, mv) : at.nudge.footprint > 0 ? mu + mv : std::max(std::hypot(ux, vx), std::hypot(uy, vy));
+  return at.nudge.footprint < 0   ? std::max(mu, mv)
+         : at.nudge.footprint > 0 ? mu + mv
+                                  : std::max(std::hypot(ux, vx), std::hypot(uy, vy));
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ glm::dvec2 Textures::place(const TextureUse& use, const Coordinates& at, int lev
     u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
   else
     u -= std::floor(u), v -= std::floor(v);
-  return {u * level_size(t.width, level) + at.nudge.x, (1 - v) * level_size(t.height, level) + at.nudge.y};  // v = 0 is the bottom row
+  return {u * level_size(t.width, level) + at.nudge.x,
+          (1 - v) * level_size(t.height, level) + at.nudge.y};  // v = 0 is the bottom row
 }
 
 glm::dvec4 Textures::bilinear(const TextureUse& use, int level, const glm::dvec2& place) const {

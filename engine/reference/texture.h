@@ -5,8 +5,8 @@
 
 namespace spanray::reference {
 
-// How another renderer may read a texture (ambiguity.h): beside the place by so many texels of the level that is read, from another
-// level of detail, by another measure of the footprint. Zero: the model.
+// How another renderer may read a texture (ambiguity.h): beside the place by so many texels of the level that is read, from
+// another level of detail, by another measure of the footprint. Zero: the model.
 struct Nudge {
   double x = 0, y = 0, levels = 0;
   // -1, 1: the least and the greatest footprint that OpenGL 4.6, 8.14.1, allows: max(mu, mv) and mu + mv.

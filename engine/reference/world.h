@@ -14,7 +14,9 @@ struct World {
   }
   // The same of a shadow ray: both faces of a surface cast shadows, whatever is culled (ray/bvh.h).
   auto blocks(const Ray& ray) const {
-    return [this, &ray](uint32_t primitive, double) { return surfaces.stops(ray, primitive, surfaces.stop_opacity(ray, primitive)); };
+    return [this, &ray](uint32_t primitive, double) {
+      return surfaces.stops(ray, primitive, surfaces.stop_opacity(ray, primitive));
+    };
   }
 
   const SceneData& scene;
