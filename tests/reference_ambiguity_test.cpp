@@ -106,6 +106,11 @@ TEST_F(MaskOfAFewTriangles, EqualDepthsAreUndecidedAndOthersAreNot) {
   EXPECT_TRUE(surely(c, 0) && !shows(c, 1));
   c = at(wall("red", -6, 6) + wall("green", -6, 6, 0.001), 8, 5);
   EXPECT_TRUE(surely(c, 1) && !shows(c, 0));
+  // 2^-20 of the depth, which is 8, for each of the two.
+  c = at(wall("red", -6, 6) + wall("green", -6, 6, -1e-5), 8, 5);
+  EXPECT_TRUE(shows(c, 0) && shows(c, 1) && !surely(c, 0));
+  c = at(wall("red", -6, 6) + wall("green", -6, 6, -2e-5), 8, 5);
+  EXPECT_TRUE(surely(c, 0) && !shows(c, 1));
   // Planes that cross at the pixel's center.
   c = at(wall("red", -6, 6) + quad("green", {-5.5, -6, -6}, {6.5, -6, 6}, {6.5, 6, 6}, {-5.5, 6, -6}), 8, 5);
   EXPECT_TRUE(shows(c, 0) && shows(c, 1) && !surely(c, 0) && !surely(c, 1));
