@@ -208,7 +208,7 @@ TEST(AmbiguityOfScenes, WiderBoundsGiveWiderMasksAndThreadsChangeNothing) {
   EXPECT_GT(share([](AmbiguityBounds& b) { b.texels *= 16; }, 3), 1.5);
   EXPECT_GT(share([](AmbiguityBounds& b) { b.levels *= 32; }, 3), 1.2);
   EXPECT_GT(share([](AmbiguityBounds& b) { b.any_opengl_footprint = true; }, 8), 2);
-  EXPECT_GT(share([](AmbiguityBounds& b) { b.codes = 2; }, 3), 2);
+  EXPECT_GT(share([](AmbiguityBounds& b) { b.codes = 2; }, 3.9), 5) << "4 is the least then";
   ReferenceOptions three;
   three.threads = 3;
   AmbiguityMask again;
