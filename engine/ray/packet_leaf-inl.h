@@ -28,8 +28,8 @@ HWY_INLINE AlongAxes vertex_along(const RayPacket& p, const TriangleBlock& block
   return {by_axis(p, b, c, a), by_axis(p, c, a, b), by_axis(p, a, b, c)};
 }
 
-// Rays that might hit a triangle at no more than their limit, and those of them that surely do: hit_triangle() would accept them. For any hit
-// also at less than the limit; for the closest, low <= t <= high for its t.
+// Rays that might hit a triangle at no more than their limit, and those of them that surely do: hit_triangle() would accept
+// them. For any hit also at less than the limit; for the closest, low <= t <= high for its t.
 struct LaneHits { uint32_t maybe, sure; };
 struct LaneDistances { F32 low, high; };
 enum class SureHits { kOfAny, kOfClosest };

@@ -94,15 +94,17 @@ HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray,
   return found;
 }
 
+inline constexpr uint32_t kNothing = ~0u;  // no child
+
 // What is still to be visited: two arrays, since a pair that is written by halves and read whole would stall. A push may write kBvhWidth
 // entries past the last that counts.
-inline constexpr uint32_t kNothing = ~0u;
 struct Stack {
   float near[kBvhStackSize + kBvhWidth];
   uint32_t child[kBvhStackSize + kBvhWidth];
   int top = 0;
 
-  // The children of a node that the ray meets, in no order and without distances: one is returned, the others wait. kNothing if there are none.
+  // The children of a node that the ray meets, in no order and without distances: one is returned, the others wait.
+  // kNothing if there are none.
   HWY_INLINE uint32_t push_any(const BvhNode& node, const LaneRay& ray, float limit) {
     const int bottom = top;
     for (int s = 0; s < kBvhWidth; s += kLanes8)

@@ -11,7 +11,8 @@ namespace spanray {
 
 inline constexpr float kLargestT = std::numeric_limits<float>::max();
 
-// slab() rounds four times, reciprocals included. The factors 1 -+ 6u make the near side an under- and the far side an overestimate (Ize 2013).
+// slab() rounds four times, reciprocals included. The factors 1 -+ 6u make the near side an under- and the far side an
+// overestimate (Ize 2013).
 inline constexpr float kSlabWidening = 6.0f / (1 << 24);
 
 // One ray, with its direction scaled by a power of two so that the largest component is in [1, 2): exact, and then neither
