@@ -67,9 +67,35 @@ class TriangleClipper {
     uint8_t piece[kMaxClipVertices - 2][3];
     const int pieces = triangulate(polygon, n, piece);
     const ScreenTriangle original = setup(t, primitive);
+    if (pieces == kCrossesItself) emit_rows(polygon, n, original);
     for (int i = 0; i < pieces; ++i) {
       const SnappedPoint p[3] = {polygon[piece[i][0]], polygon[piece[i][1]], polygon[piece[i][2]]};
       emit(p, original);
+    }
+  }
+
+  // A triangle for every run of samples inside. Rare: snapping moves one of the polygon's edges across another.
+  void emit_rows(const SnappedPoint* polygon, int n, const ScreenTriangle& original) {
+    int32_t top = polygon[0].y_24_8, bottom = top;
+    for (int i = 1; i < n; ++i) top = std::min(top, polygon[i].y_24_8), bottom = std::max(bottom, polygon[i].y_24_8);
+    const SamplePlaces& s = frame_.places;
+    for (int place = s.first(); place < s.end(); ++place) {  // each has its own row (tests/raster_samples_test.cpp)
+      const int32_t dx = s.offset_x_24_8[place], dy = s.offset_y_24_8[place];
+      const int32_t first = kSubpixels / 2 + dx, last = first + (frame_.grid.width - 1) * kSubpixels;
+      const int end = std::min(first_center(bottom - dy), frame_.grid.height);
+      for (int row = std::max(first_center(top - dy), 0); row < end; ++row) {
+        const int32_t y = row * kSubpixels + kSubpixels / 2 + dy;
+        RowRun run[kMaxClipVertices / 2];
+        const int runs = inside_runs(polygon, n, y, run);
+        for (int i = 0; i < runs; ++i) {
+          static_assert(2 * kMaxImageSide <= kGuardBandPixels);  // triangle_of_run doubles the width
+          const RowRun seen{std::max(run[i].begin, first), std::min(run[i].end, last + 1)};
+          if (seen.begin >= seen.end) continue;
+          SnappedPoint p[3];
+          triangle_of_run(seen, y, p);
+          emit(p, original);
+        }
+      }
     }
   }
 

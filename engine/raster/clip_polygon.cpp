@@ -61,6 +61,15 @@ int64_t area2(const SnappedPoint& a, const SnappedPoint& b, const SnappedPoint& 
   return int64_t{b.x_24_8 - a.x_24_8} * (c.y_24_8 - a.y_24_8) - int64_t{c.x_24_8 - a.x_24_8} * (b.y_24_8 - a.y_24_8);
 }
 
+// Twice the signed area, positive if the inside lies to the right of edges that go up (y points down).
+int64_t area2_of(const SnappedPoint* polygon, int n) {
+  int64_t sum = 0;
+  for (int i = 2; i < n; ++i) sum += area2(polygon[0], polygon[i - 1], polygon[i]);
+  return sum;
+}
+
+int64_t ceil_divide(int64_t a, int64_t b) { return a / b + (a % b > 0); }  // b > 0
+
 // What is left of a polygon while its ears are cut off.
 struct Rest {
   const SnappedPoint* polygon;
@@ -108,11 +117,8 @@ int clip_to_guard_band(const HomogeneousPoint triangle[3], double near_plane, Sn
 int triangulate(const SnappedPoint* polygon, int size, uint8_t out[kMaxClipVertices - 2][3]) {
   const int n = std::min(size, kMaxClipVertices);
   Rest rest{polygon, {}, n};
-  int64_t orientation = 0;
-  for (int i = 0; i < n; ++i) {
-    rest.index[i] = static_cast<uint8_t>(i);
-    if (i >= 2) orientation += area2(polygon[0], polygon[i - 1], polygon[i]);
-  }
+  for (int i = 0; i < n; ++i) rest.index[i] = static_cast<uint8_t>(i);
+  const int64_t orientation = area2_of(polygon, n);
   int count = 0;
   while (rest.size >= 3) {
     int flat = -1, ear = -1;
@@ -120,8 +126,8 @@ int triangulate(const SnappedPoint* polygon, int size, uint8_t out[kMaxClipVerti
       if (area2(rest.at(i - 1), rest.at(i), rest.at(i + 1)) == 0) flat = i;
       else if (ear < 0 && rest.is_ear(i, orientation)) ear = i;
     }
-    // Without an ear the polygon crosses itself: any cut covers it.
-    const int cut = flat >= 0 ? flat : ear >= 0 ? ear : 1;
+    if (flat < 0 && ear < 0) return kCrossesItself;
+    const int cut = flat >= 0 ? flat : ear;
     if (flat < 0) {
       for (int k = 0; k < 3; ++k) out[count][k] = rest.index[(cut + k - 1 + rest.size) % rest.size];
       ++count;
@@ -129,6 +135,42 @@ int triangulate(const SnappedPoint* polygon, int size, uint8_t out[kMaxClipVerti
     rest.remove(cut);
   }
   return count;
+}
+
+// Source:   the nonzero winding number rule (PostScript Language Reference), for one sign only. The windings of neighbours add up,
+//           as the edge they share counts once each way: to 1 inside a mesh, to 0 or 1 at the near plane, whose edges are nobody
+//           else's. Where a polygon is folded it winds -1 times, so its neighbours cover that place without it.
+// Contract: exact, products are below 2^50; the rule at edges is that of coverage-inl.h.
+int inside_runs(const SnappedPoint* polygon, int size, int32_t y, RowRun out[kMaxClipVertices / 2]) {
+  struct Crossing { int32_t x, turns; };
+  const int n = std::min(size, kMaxClipVertices), sense = area2_of(polygon, n) < 0 ? -1 : 1;
+  Crossing crossing[kMaxClipVertices];
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    const SnappedPoint &a = polygon[i], &b = polygon[i + 1 == n ? 0 : i + 1];
+    const bool down = a.y_24_8 < b.y_24_8;
+    const SnappedPoint &top = down ? a : b, &bottom = down ? b : a;
+    if (y < top.y_24_8 || y >= bottom.y_24_8) continue;
+    const int64_t moved = int64_t{y - top.y_24_8} * (bottom.x_24_8 - top.x_24_8);
+    const int32_t x = top.x_24_8 + static_cast<int32_t>(ceil_divide(moved, bottom.y_24_8 - top.y_24_8));
+    int k = count++;
+    for (; k > 0 && crossing[k - 1].x > x; --k) crossing[k] = crossing[k - 1];
+    crossing[k] = {x, down ? -sense : sense};
+  }
+  int runs = 0;
+  for (int i = 0, winding = 0; i + 1 < count; ++i) {
+    winding += crossing[i].turns;
+    const RowRun run{crossing[i].x, crossing[i + 1].x};
+    if (winding <= 0 || run.begin == run.end) continue;
+    if (runs > 0 && out[runs - 1].end == run.begin) out[runs - 1].end = run.end;  // winds twice from here, or once again
+    else out[runs++] = run;
+  }
+  return runs;
+}
+
+// One row high on either side: its left edge is upright, its right one crosses the row at `end`.
+void triangle_of_run(const RowRun& run, int32_t y, SnappedPoint out[3]) {
+  out[0] = {run.begin, y - 1}, out[1] = {run.begin, y + 1}, out[2] = {run.begin + 2 * (run.end - run.begin), y + 1};
 }
 
 }  // namespace spanray

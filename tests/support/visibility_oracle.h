@@ -34,6 +34,20 @@ inline void oracle_draw(const Frame& frame, const SnappedPoint p[3], const Depth
     }
 }
 
+// A polygon that crosses itself, row by row.
+inline void oracle_draw_rows(const Frame& frame, const SnappedPoint* polygon, int n, const DepthPlane& plane,
+                             uint32_t primitive, Picture& out) {
+  for (int y = 0; y < out.height; ++y) {
+    RowRun run[kMaxClipVertices / 2];
+    const int runs = inside_runs(polygon, n, y * 256 + 128, run);
+    for (int i = 0; i < runs; ++i) {
+      SnappedPoint p[3];
+      triangle_of_run(run[i], y * 256 + 128, p);
+      oracle_draw(frame, p, plane, primitive, out);
+    }
+  }
+}
+
 inline Picture oracle_picture(const Frame& frame, const ScreenVertices& v) {
   Picture out{frame.grid.width, frame.grid.height, {}, {}};
   out.primitive.assign(static_cast<size_t>(out.width * out.height), kNoPrimitive);
@@ -56,12 +70,14 @@ inline Picture oracle_picture(const Frame& frame, const ScreenVertices& v) {
     }
     if (any & kOutInvalid) continue;
     uint8_t piece[kMaxClipVertices - 2][3] = {{0, 1, 2}};
-    int pieces = 1;
+    int pieces = 1, size = 3;
     if (any & kOutClipMask) {
       const int n = clip_to_guard_band(corner, frame.primary.near_plane, polygon);
       pieces = n == 0 ? 0 : triangulate(polygon, n, piece);
+      size = n;
     }
     const DepthPlane plane = make_depth_plane(frame, t, view_depth);
+    if (pieces == kCrossesItself) oracle_draw_rows(frame, polygon, size, plane, primitive, out);
     for (int i = 0; i < pieces; ++i) {
       const SnappedPoint p[3] = {polygon[piece[i][0]], polygon[piece[i][1]], polygon[piece[i][2]]};
       oracle_draw(frame, p, plane, primitive, out);
