@@ -67,18 +67,7 @@ class Tree {
   // visit(primitive, v) for every triangle in a box that the region does not miss: misses(low, high). True ends the walk.
   template <class Misses, class Visit>
   void visit_region(const Misses& misses, const Visit& visit) const {
-    if (node_.empty()) return;
-    uint32_t stack[128];
-    int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-      const uint32_t at = stack[--depth];
-      const Node& node = node_[at];
-      if (misses(node.box.low, node.box.high)) continue;
-      for (uint32_t i = node.first; i < node.first + node.count; ++i)
-        if (visit(item_[i].primitive, item_[i].v)) return;
-      if (node.count == 0) stack[depth++] = node.first, stack[depth++] = at + 1;
-    }
+    descend([&](const Box& box) { return !misses(box.low, box.high); }, [&](const Item& item) { return visit(item.primitive, item.v); });
   }
   bool empty() const { return item_.empty(); }
 
@@ -107,9 +96,9 @@ class Tree {
   static size_t split(std::vector<Reference>& list, size_t begin, size_t end);
   static bool enters(const Box& box, const Line& line, double t_max);
 
-  // visit(item, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
-  template <class Visit>
-  void walk(const Line& line, double t_max, const Visit& visit) const {
+  // visit(item) for every item of the boxes that are entered, from the root on: enters(box). True ends it.
+  template <class Enters, class Visit>
+  void descend(const Enters& enters_box, const Visit& visit) const {
     if (node_.empty()) return;
     uint32_t stack[128];
     int depth = 0;
@@ -117,16 +106,21 @@ class Tree {
     while (depth > 0) {
       const uint32_t at = stack[--depth];
       const Node& node = node_[at];
-      if (!enters(node.box, line, t_max)) continue;
-      if (node.count == 0) {
-        stack[depth++] = node.first, stack[depth++] = at + 1;
-        continue;
-      }
-      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-        double t;
-        if (meets(line, item_[i].v, t) && t <= t_max && visit(item_[i], t, t_max)) return;
-      }
+      if (!enters_box(node.box)) continue;
+      for (uint32_t i = node.first; i < node.first + node.count; ++i)
+        if (visit(item_[i])) return;
+      if (node.count == 0) stack[depth++] = node.first, stack[depth++] = at + 1;
     }
+  }
+
+  // visit(item, t, limit) for every hit with t <= limit, limit being t_max or less; true ends the walk.
+  template <class Visit>
+  void walk(const Line& line, double t_max, const Visit& visit) const {
+    descend([&](const Box& box) { return enters(box, line, t_max); },
+            [&](const Item& item) {
+              double t;
+              return meets(line, item.v, t) && t <= t_max && visit(item, t, t_max);
+            });
   }
 
   std::vector<Node> node_;
