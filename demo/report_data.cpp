@@ -145,6 +145,7 @@ Json report_json(const Report& report) {
       if (stage.time == &StageTimes::bvh_build) continue;
       s["median_ms"][stage.name] = m.median_ms(stage.time), s["p95_ms"][stage.name] = m.p95_ms(stage.time);
     }
+    s["median_interval_ms"] = {m.interval_ms().low, m.interval_ms().high};
     for (const FrameStats& frame : m.frames) s["frame_ms"].push_back(frame.ms.frame);
     s["bvh_build_ms"] = m.bvh_build_ms;
     s["error"] = metrics_json(m.error);

@@ -13,6 +13,7 @@ std::string short_number(double v) {
                 : v >= 10              ? "%.1f"
                 : v >= 1               ? "%.2f"
                 : v >= 0.001 || v == 0 ? "%.4f"
+                : v >= 0.0001          ? "%.5f"
                                        : "%.1e",
                 v);
   return text;
@@ -46,7 +47,10 @@ std::string milliseconds(double v) {
 std::string head(std::initializer_list<const char*> titles) {
   std::string text = "<tr>";
   bool first = true;
-  for (const char* title : titles) text += std::string(first ? "<th class=\"text\">" : "<th>") + title + "</th>", first = false;
+  for (const char* title : titles) {
+    const bool left = *title == '<';
+    text += std::string(first || left ? "<th class=\"text\">" : "<th>") + (left ? title + 1 : title) + "</th>", first = false;
+  }
   return text + "</tr>\n";
 }
 

@@ -14,7 +14,8 @@ std::string base64(const std::string& bytes);
 // text: HTML. kind: of the style sheet.
 std::string cell(const std::string& text, const char* kind = "");
 std::string cell(double v);
-// A row of titles, which are HTML; the first is that of the column of names.
+// A row of titles, which are HTML; the first is that of the column of names. Of those that begin with '<', which is left out,
+// the column is text as well.
 std::string head(std::initializer_list<const char*> titles);
 
 }  // namespace spanray::demo

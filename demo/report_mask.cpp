@@ -1,8 +1,11 @@
 #include "report_mask.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "core/counted.h"
+#include "core/number_text.h"
 #include "image/false_color.h"
 #include "image/mask.h"
 #include "reference/ambiguity.h"
@@ -27,22 +30,36 @@ Result<ReportMask> measure_mask(const Job& job, const Settings& settings, const 
   result.widths = false_color(mask_widths(mask), mask.width, mask.height, kWidest);
   result.over_3 = share_wider(mask, 3), result.over_8 = share_wider(mask, 8);
   result.open = mask.open, result.outside = own.value().outside;
+  result.worst = *std::max_element(std::begin(own.value().worst), std::end(own.value().worst));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
 std::string mask_section(const ReportMask& m, const std::string& png) {
-  return "<h2 id=\"ambiguity\">What errors within published bounds leave open</h2>\n<p>Vertices that move by 1/256 pixel, "
-         "textures read within 1/256 texel, "
-         "undecided depths and what they do to shadows and mirrors give each pixel a least and a greatest color. <b>" +
-         short_number(100 * m.over_8) + " %</b> of the pixels are left open by more than 8 of 255, " +
-         short_number(100 * m.over_3) + " % by more than 3; 2 is the least. " + counted(m.open, "pixel has", "pixels have") +
-         " mirrors that show too much to be enumerated. Of the plain setting's picture " +
-         counted(m.outside, "pixel is", "pixels are") +
-         " outside. To judge another renderer by it: <code>spanray reference SCENE --out G.png --mask M.pfm</code>, "
-         "<code>spanray compare OTHER.png --golden G.png --mask M.pfm</code>.</p>\n<figure><img alt=\"width of the ambiguity "
-         "mask\" src=\"data:image/png;base64," +
-         base64(png) + "\"><figcaption>the widest channel of each pixel: black 0, pale yellow " + short_number(kWidest) +
+  std::string text =
+      "<h2 id=\"ambiguity\">What errors within published bounds leave open</h2>\n<p>Renderers that keep the bounds of the "
+      "Direct3D 11.3 specification and of this renderer's contract may differ: vertices move by up to 1/256 pixel, textures are "
+      "read within 1/256 texel, near depths are decided either way, shading and the step to bytes err by 1 of 255. That, and "
+      "what it does to shadows, mirrors and translucent layers, leaves each pixel a range of colors from a least to a greatest. "
+      "It is wider than 8 of 255 in <b>" +
+      short_number(100 * m.over_8) + " %</b> of the pixels, wider than 3 in " + short_number(100 * m.over_3) +
+      " %, and 2 wide (less only at black and white) where nothing but shading errs.";
+  if (m.open > 0)
+    text += " In " + counted(m.open, "pixel", "pixels") +
+            " mirrors show too much to be enumerated: no greatest color is known, and the range goes up to white.";
+  if (m.outside == 0)
+    text += " All pixels of the plain setting's picture are within.";
+  else
+    text += " <b>" + counted(m.outside, "pixel", "pixels") + "</b> of the plain setting's picture " +
+            (m.outside == 1 ? "is" : "are") + " outside, by " + short_number(m.worst) +
+            " of 255 at most: light and what mirrors show are sampled, so the range can be a little too narrow.";
+  return text +
+         "</p>\n<p>To judge another renderer's picture by it, with this report's size, camera and other options: "
+         "<code>spanray reference SCENE --out G.png --mask M.pfm</code>, then "
+         "<code>spanray compare OTHER.png --golden G.png --mask M.pfm</code>.</p>\n<figure class=\"map\"><img "
+         "alt=\"width of the ambiguity mask\" src=\"data:image/png;base64," +
+         base64(png) +
+         "\"><figcaption>how wide the range is, of each pixel's widest channel: black 0, pale yellow " + number_text(kWidest) +
          " of 255 or more</figcaption></figure>\n";
 }
 
@@ -51,6 +68,7 @@ nlohmann::ordered_json mask_json(const ReportMask& m) {
           {"share_over_8", m.over_8},
           {"mirrors_not_enumerated", m.open},
           {"outside", m.outside},
+          {"outside_by", m.worst},
           {"seconds", m.seconds}};
 }
 

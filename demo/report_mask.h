@@ -14,6 +14,7 @@ struct ReportMask {
   double over_3 = 0, over_8 = 0;  // shares of the pixels that are left open by more codes
   uint64_t open = 0;              // pixels whose mirrors could not be enumerated
   uint64_t outside = 0;           // pixels of the renderer's own picture that are outside
+  double worst = 0;               // by how many codes at most
   double seconds = 0;             // that it took
 };
 // settings: with one sample a pixel; picture: made with them. Errors: those of make_ambiguity_mask.

@@ -38,6 +38,21 @@ std::string truth_error(const Report& r) {
   return text;
 }
 
+// What the times of this page are worth: half of the interval that has the median, by the frames of the setting.
+std::string times_error(const Report& r) {
+  std::vector<double> shares;
+  for (const Measured& m : r.trade.settings) {
+    const MedianInterval known = m.interval_ms();
+    shares.push_back(50 * (known.high - known.low) / m.median_ms());
+  }
+  return "<p>Medians of " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") + " are known to &plusmn;<b>" +
+         short_number(median(shares)) + " %</b> here, to &plusmn;" +
+         short_number(*std::max_element(shares.begin(), shares.end())) +
+         " % at worst (half of the 95 % interval of the median, by rank, as if frames were independent; the middle of all "
+         "settings). Which of two settings is faster is not known where they differ by less, nor then which beats which; more "
+         "<code>--frames</code> and a quieter machine make it less.</p>\n";
+}
+
 std::string summary(const Report& r) {
   const Measured& plain = r.trade.settings[0];
   const std::vector<Cost> all = costs(r);
@@ -64,9 +79,8 @@ std::string summary(const Report& r) {
   if (disturbed > 0)
     text +=
         "<p class=\"warn\">Of " + std::to_string(disturbed) +
-        " settings the 95th percentile is more than 1.5 times the median: other programs were at work, or the frames too few. "
-        "Medians of neighbours that differ by a few percent mean nothing then.</p>\n";
-  return text;
+        " settings the 95th percentile is more than 1.5 times the median: other programs were at work, or the frames too few.</p>\n";
+  return text + times_error(r);
 }
 
 // The plot of one metric, and its front as a table: the same numbers in both.
@@ -82,8 +96,8 @@ std::string plot_of(const Report& r, const MetricWord& word) {
   }
   std::stable_sort(front.begin(), front.end(), [&](int a, int b) { return setting(r, a).median_ms() < setting(r, b).median_ms(); });
   const std::string unit = *word.unit != 0 ? std::string(" (") + word.unit + ")" : "";
-  std::string text = std::string("<div class=\"plot\" id=\"plot-") + word.name + "\"" + (word.value == kRankedBy ? "" : " hidden") + ">" +
-                     scatter_plot(plot, word.name + unit, r.trade.truth_error.*word.value) + "<h3>The front, by " + word.name +
+  std::string text = std::string("<div class=\"plot\" id=\"plot-") + word.name + "\"" + (word.value == kRankedBy ? "" : " hidden") + "><div class=\"wide\">" +
+                     scatter_plot(plot, word.name + unit, r.trade.truth_error.*word.value) + "</div><h3>The front, by " + word.name +
                      "</h3>\n<div class=\"wide\"><table>" + head({"Setting", "number", "median ms", "p95 ms", (word.name + unit).c_str()});
   for (size_t k = 0; k < front.size(); ++k) {
     const Measured& m = setting(r, front[k]);
@@ -108,6 +122,10 @@ std::string scatter(const Report& r) {
   return text;
 }
 
+std::string pareto_cell(const Report& r, size_t i) {
+  return r.dominated[i] < 0 ? cell("on the front", "front won") : cell("beaten by " + name_of(r, r.dominated[i]), "beaten");
+}
+
 // name: as it stands under the heading of its group.
 std::string setting_row(const Report& r, size_t i, const std::string& name) {
   const Measured &m = r.trade.settings[i], &plain = r.trade.settings[0];
@@ -119,8 +137,7 @@ std::string setting_row(const Report& r, size_t i, const std::string& name) {
   text += cell(m.wrong_ids ? std::to_string(*m.wrong_ids) : "–") + cell(e.flip) +
           cell(m.error_alone ? short_number(m.error_alone->flip) : "–") + cell(e.max) + cell(e.p99_9) +
           cell(short_number(100 * e.over_1) + " %") + cell(e.rmse_linear) + cell(e.relmse) + cell(e.psnr_db) + cell(e.ssim);
-  text += r.dominated[i] < 0 ? cell("on the front", "front") : cell("beaten by " + name_of(r, r.dominated[i]), "beaten");
-  return text + "</tr>\n";
+  return text + pareto_cell(r, i) + "</tr>\n";
 }
 
 std::string knob_table(const Report& r) {
@@ -132,7 +149,7 @@ std::string knob_table(const Report& r) {
       "errs and not the lack of samples. <i>Wrong ids</i>: pixels whose center sees another triangle than the reference "
       "says.</p>\n<div class=\"wide\"><table>" +
       head({"Setting", "median ms", "p95 ms", "of plain", "wrong ids", "FLIP", "FLIP alone", "max", "p99.9", "off by &gt; 1",
-            "RMSE linear", "relMSE", "PSNR dB", "SSIM", "Pareto"});
+            "RMSE linear", "relMSE", "PSNR dB", "SSIM", "<Pareto"});
   text += setting_row(r, 0, r.trade.settings[0].candidate.name);
   const auto rows_of = [&](const std::string& group) {
     std::string rows;
@@ -161,7 +178,7 @@ std::string preset_table(const Report& r) {
   std::string text =
       "<h2>The presets</h2>\n<p>What <code>--preset</code> of <code>render</code> and <code>walk</code> costs and errs on this "
       "scene.</p>\n<div class=\"wide\"><table>" +
-      head({"Preset", "median ms", "p95 ms", "FLIP", "RMSE linear", "PSNR dB", "Pareto", "what it asks for"});
+      head({"Preset", "median ms", "p95 ms", "FLIP", "RMSE linear", "PSNR dB", "<Pareto", "<what it asks for"});
   for (const Preset& preset : kPresets)
     for (size_t i = 0; i < r.trade.settings.size(); ++i) {
       const Measured& m = r.trade.settings[i];
@@ -169,8 +186,7 @@ std::string preset_table(const Report& r) {
       text += "<tr class=\"pick\" data-id=\"" + escape_html(m.candidate.id) + "\">" + cell(preset.name, "text") +
               cell(milliseconds(m.median_ms())) + cell(milliseconds(m.p95_ms())) + cell(m.error.flip) +
               cell(m.error.rmse_linear) + cell(m.error.psnr_db) +
-              (r.dominated[i] < 0 ? cell("on the front", "front") : cell("beaten by " + name_of(r, r.dominated[i]), "beaten")) +
-              cell(preset.what, "text") + "</tr>\n";
+              pareto_cell(r, i) + cell(preset.what, "text") + "</tr>\n";
     }
   return text + "</table></div>\n";
 }
@@ -179,7 +195,9 @@ std::string stage_table(const Report& r) {
   std::string text =
       "<h2>Where the time goes</h2>\n<p>Median milliseconds of each stage. Stages inside tiles are thread time divided by the "
       "number of threads, so a row adds up to less "
-      "than its frame where threads wait. Building the trees happens once a scene and is not part of a frame.</p>\n<div "
+      "than its frame where threads wait, for each other or, on a busy machine, for a processor; medians of stages are of "
+      "different frames, so it may also add up to a little more. Building the trees happens once a scene, is measured once, and "
+      "is not part of a frame.</p>\n<div "
       "class=\"wide\"><table><tr><th class=\"text\">Setting</th>";
   for (const auto& stage : kStages) text += std::string("<th>") + stage.name + "</th>";
   text += "</tr>\n";
@@ -194,6 +212,12 @@ std::string stage_table(const Report& r) {
   return text + "</table></div>\n";
 }
 
+// budgets: those of a table that have no row, since no setting keeps them.
+std::string kept_by_none(const char* what, const std::string& budgets, const char* unit) {
+  if (budgets.empty()) return "";
+  return std::string("<p>No setting of this report keeps a ") + what + " of " + budgets + unit + ".</p>\n";
+}
+
 std::string budget_tables(const Report& r) {
   const std::vector<Cost> points = costs(r);
   const auto row = [&](const std::string& budget, int i) {
@@ -204,26 +228,29 @@ std::string budget_tables(const Report& r) {
   std::string text =
       "<h2>Equal time, equal error</h2>\n<h3>The least error for a budget of time</h3>\n<div class=\"wide\"><table>" +
       head({"Setting", "budget, ms", "median ms", "FLIP"});
+  std::string none;
   int last = -1;
   for (const double ms : {1., 2., 4., 8., 16., 33., 50., 66., 100., 150., 200., 300., 500., 1000., 2000., 5000.}) {
     const int i = best_within_time(points, ms);
     if (i >= 0 && i != last) text += row(number_text(ms), i);
+    if (i < 0) none += (none.empty() ? "" : ", ") + number_text(ms);
     last = i;
   }
-  text += "</table></div>\n<h3>The least time for a bound on the error</h3>\n<div class=\"wide\"><table>" +
+  text += "</table></div>\n" + kept_by_none("budget", none, " ms") + "<h3>The least time for a bound on the error</h3>\n<div class=\"wide\"><table>" +
           head({"Setting", "FLIP at most", "median ms", "FLIP"});
-  last = -1;
+  none.clear(), last = -1;
   for (const double error :
        {0.5, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.015, 0.01, 0.007, 0.005, 0.003, 0.002, 0.001}) {
     const int i = fastest_within_error(points, error);
     if (i >= 0 && i != last) text += row(number_text(error), i);
+    if (i < 0) none += (none.empty() ? "" : ", ") + number_text(error);
     last = i;
   }
-  return text + "</table></div>\n<p class=\"dim\">Budgets for which the setting stays the same are left out.</p>\n";
+  return text + "</table></div>\n" + kept_by_none("bound", none, "") + "<p class=\"dim\">Budgets and bounds that some setting keeps, but the same as that of the row before, are left out.</p>\n";
 }
 
 const char* const kPictures = R"html(<h2 id="pictures">Pictures</h2>
-<p>Left of the bar <select id="left"></select>, right of it <select id="right"></select></p>
+<p><label>Left of the bar <select id="left"></select></label> <label>Right of it <select id="right"></select></label></p>
 <noscript><p class="warn">Choosing and sliding need scripts. Without them, the pictures are in the folder of this page: picture-truth.png, and
 picture-NAME.png, flip-NAME.png and error-NAME.png of each setting. All plots are shown.</p></noscript>
 <div class="needs-script"><div id="slider" class="slider"><img id="under" alt="left picture" draggable="false"><img id="over" class="over" alt="right picture" draggable="false"><div id="bar" class="bar"></div></div>
@@ -260,8 +287,7 @@ std::string report_page(const Report& r, const std::vector<PageImage>& images, c
       "initial-scale=1\">\n<title>" +
       title + "</title>\n<style>" + kReportStyle + "</style><noscript><style>" + kReportStyleWithoutScript + "</style></noscript></head>\n<body>\n<h1>" + title + "</h1>\n<p class=\"dim\">";
   page += std::to_string(r.job.settings.width) + " x " + std::to_string(r.job.settings.height) + " pixels, " +
-          std::to_string(r.job.scene.triangle_count()) + " triangles, " + std::to_string(r.job.scene.light_count()) +
-          " lights; " + std::to_string(r.trade.settings.size()) + " settings, " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") +
+          std::to_string(r.job.scene.triangle_count()) + " triangles, " + counted(r.job.scene.light_count(), "light", "lights") + "; " + std::to_string(r.trade.settings.size()) + " settings, " + counted(static_cast<uint64_t>(r.options.frames), "frame", "frames") +
           " each. FLIP is 0 for pictures that nobody can tell apart and 1 for the greatest difference there is.</p>\n";
   page += summary(r) + scatter(r) + preset_table(r) + knob_table(r) + kPictures + mask_section(r.mask, mask_png) +
           budget_tables(r) + stage_table(r) + plan_section(r) + machine_section(r);

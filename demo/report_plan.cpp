@@ -51,8 +51,8 @@ const Measured* find(const Report& report, const std::string& id) {
 
 PlanCost cost_of(const Report& report, const PlanLine& line) {
   const Measured& plain = report.trade.settings[0];
-  if (line.stage == "BVH" && line.needed)
-    return {line, kUnknown, "its trees are built once, in " + milliseconds(plain.bvh_build_ms) + " ms, which is not part of a frame"};
+  if ((line.stage == "BVH" || line.stage == "translucent BVH") && line.needed)
+    return {line, kUnknown, "all trees are built once, in " + milliseconds(plain.bvh_build_ms) + " ms, which is not part of a frame"};
   if (line.needed)
     for (const Clocked& c : clocked()) {
       if (line.stage != c.stage) continue;
@@ -95,7 +95,8 @@ std::string plan_section(const Report& report) {
   std::string text =
       "<h2>The plan</h2>\n<p>What the plain settings of this scene need. A stage that is not needed allocates nothing and runs nothing. "
       "<i>Costs</i>: milliseconds of the median frame that go away with the stage. <i>Saves</i>: what it would cost to have it, all else equal; below "
-      "zero, having it would be faster. Differences of a few percent of the frame are noise.</p>\n<div class=\"wide\"><table>" +
+      "zero, having it would be faster. With bounce rays, shading and shadows of what mirrors show go away, too. What is less "
+      "than medians are known to, as said above, is noise.</p>\n<div class=\"wide\"><table>" +
       head({"Stage", "needed", "costs, ms", "saves, ms"});
   text.insert(text.rfind("</tr>"), "<th class=\"text\">why</th><th class=\"text\">how that was measured</th>");
   for (const PlanCost& c : plan_costs(report)) {

@@ -14,15 +14,15 @@ th, td { padding: 3px 6px; border-bottom: 1px solid var(--line); text-align: rig
 th { background: var(--soft); vertical-align: bottom; font-weight: 600; white-space: normal; } td.text, th.text { text-align: left; white-space: normal; min-width: 150px; }
 tr.group td { text-align: left; background: var(--soft); font-weight: 600; white-space: normal; } tr.group span { font-weight: 400; color: var(--dim); }
 tr.plain td { font-weight: 600; } tr.pick { cursor: pointer; } tr.pick:hover td { background: var(--soft); }
-.front { color: var(--best); font-weight: 600; } td.beaten { color: var(--dim); white-space: normal; text-align: left; min-width: 110px; }
-svg { width: 100%; height: auto; max-width: 900px; } svg text { fill: var(--dim); font-size: 13px; } svg .grid { stroke: var(--line); }
+.front { color: var(--best); font-weight: 600; } td.beaten { color: var(--dim); white-space: normal; min-width: 110px; } td.beaten, td.won { text-align: left; }
+svg { width: 100%; height: auto; min-width: 620px; max-width: 900px; } svg text { fill: var(--dim); font-size: 13px; } svg .grid { stroke: var(--line); }
 svg path.front { fill: none; stroke: var(--best); stroke-width: 1.5; } circle.best { fill: var(--best); } circle { cursor: pointer; }
 circle.other { fill: var(--paper); stroke: var(--other); stroke-width: 2; } svg line.truth { stroke: var(--dim); stroke-dasharray: 6 4; } svg .number { fill: var(--best); font-weight: 700; }
 .slider { position: relative; line-height: 0; cursor: ew-resize; touch-action: pan-y; user-select: none; }
 .slider img { width: 100%; display: block; image-rendering: pixelated; }
 .slider .over { position: absolute; inset: 0; } .slider .bar { position: absolute; top: 0; bottom: 0; width: 2px; background: #fff; mix-blend-mode: difference; }
 input[type=range] { width: 100%; margin: 6px 0 0; } select { font: inherit; max-width: 340px; } .warn { border-left: 3px solid var(--best); padding-left: 12px; }
-.pair { display: grid; grid-template-columns: 1fr 1fr; gap: 16px; } .pair img { width: 100%; } figure { margin: 8px 0; } figcaption { color: var(--dim); font-size: 13px; }
+.pair { display: grid; grid-template-columns: 1fr 1fr; gap: 16px; } .pair img { width: 100%; } figure.map img { width: 100%; max-width: 900px; image-rendering: pixelated; } label { white-space: nowrap; } figure { margin: 8px 0; } figcaption { color: var(--dim); font-size: 13px; }
 svg .leader { stroke: var(--best); stroke-width: 0.8; } svg .zero { stroke: var(--dim); stroke-dasharray: 1 3; } td.yes { color: var(--best); } @media print { tr.pick { cursor: auto; } }
 )css";
 

@@ -21,4 +21,10 @@ inline constexpr struct {
 double median(std::vector<double> values);
 double percentile_95(std::vector<double> values);
 
+// Where the median of all frames that could be measured lies, by those that were: between two of them, with 95 % confidence or
+// more and whatever the distribution, if they are independent. Fewer than six values tell no more than their ends.
+// Source: David & Nagaraja, Order Statistics, 2003, 7.1.
+struct MedianInterval { double low = 0, high = 0; };
+MedianInterval median_interval(std::vector<double> values);
+
 }  // namespace spanray::demo

@@ -92,6 +92,7 @@ Result<void> measure_errors(const Job& job, const TradeOptions& options, const I
 
 double Measured::median_ms(double StageTimes::*stage) const { return median(times(frames, stage)); }
 double Measured::p95_ms(double StageTimes::*stage) const { return percentile_95(times(frames, stage)); }
+MedianInterval Measured::interval_ms() const { return median_interval(times(frames, &StageTimes::frame)); }
 
 Result<Trade> measure_trade(const Job& job, const std::vector<Knob>& knobs, const std::vector<Candidate>& candidates,
                             const TradeOptions& options) {

@@ -31,6 +31,7 @@ struct Measured {
   std::optional<Metrics> error_alone;
   double median_ms(double StageTimes::*stage = &StageTimes::frame) const;
   double p95_ms(double StageTimes::*stage = &StageTimes::frame) const;
+  MedianInterval interval_ms() const;  // of the median frame
 };
 
 struct TradeOptions {

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "core/atomic_file.h"
+#include "core/counted.h"
 #include "core/hash.h"
 #include "frame_options.h"
 #include "metric_limit.h"
@@ -161,8 +162,11 @@ int run_tune(const TuneCommand& command) {
                               [&](double f) { progress.show("ground truth", f); });
       !done)
     return fail(done.error());
-  Result<Tuned> found = tune(knobs, job.settings, goal,
-                             [&](const Settings& s) { return measure_settings(job, views, s, metric, command.frames); });
+  uint64_t tried = 0;
+  Result<Tuned> found = tune(knobs, job.settings, goal, [&](const Settings& s) {
+    progress.say("searching", counted(tried++, "setting tried", "settings tried"));
+    return measure_settings(job, views, s, metric, command.frames);
+  });
   if (!found) return progress.clear(), fail(found.error());
   Result<Declared> declared = Declared{found.value(), ""};
   if (found.value().kept)
