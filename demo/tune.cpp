@@ -114,14 +114,15 @@ Result<Declared> declare(const Job& job, const std::vector<TunedView>& views, co
     out.evidence += "# measured again, " + std::to_string(frames) + " frames of each and view in turns" +
                     (chosen >= 0 ? ":\n" : ", and none keeps the budget:\n");
     for (size_t i = 0; i < settings.size(); ++i) {
-      const bool is_plain = i == contenders.size();
+      const bool contends = i < contenders.size();
+      const std::string name = same_settings(settings[i], plain) ? "plain" : "";
       const std::string what = chosen >= 0 && static_cast<int>(i) == chosen
-                                   ? "these settings"
-                                   : (is_plain ? "plain: " : "with ") + difference_text(best.settings, settings[i]);
+                                   ? "these settings" + (name.empty() ? "" : ", " + name)
+                                   : (name.empty() ? "with " : name + ": ") + difference_text(best.settings, settings[i]);
       out.evidence +=
           "#   " + number4(times.value()[i].median_ms) + " ms (95th percentile " + number4(times.value()[i].p95_ms) + ")" +
-          (is_plain ? "" : ", " + std::string(metric.name) + " " + number4(as_error(metric, contenders[i].cost.error))) + ": " +
-          (!is_plain && what == "with " ? words_text(best.settings) : what) + "\n";
+          (contends ? ", " + std::string(metric.name) + " " + number4(as_error(metric, contenders[i].cost.error)) : "") + ": " +
+          (what == "with " ? words_text(best.settings) : what) + "\n";
     }
   }
   return out;
