@@ -43,6 +43,19 @@ class Search {
     }
     return true;
   }
+  // Turns every knob to its exact choice that keeps the budget of time and errs no more, but for noise.
+  bool prefer_exact(double most_ms) {
+    const double most_error = cost_.error * (1 + kErrorNoise);
+    for (const Knob& knob : knobs_) {
+      if (!knob.absent.empty()) continue;
+      Settings exact = best_;
+      knob.choices[knob.exact].set(exact);
+      const Cost* cost = measured(exact);
+      if (cost == nullptr) return false;
+      if (cost->ms <= most_ms && cost->error <= most_error) best_ = exact, cost_ = *cost;
+    }
+    return true;
+  }
   const Cost& cost() const { return cost_; }
   const Error& error() const { return error_; }
   Tuned result(const TuneGoal& goal, bool kept) const {
@@ -83,7 +96,8 @@ int choose_again(const std::vector<Tried>& contenders, const TuneGoal& goal) {
     if ((goal.by_time ? cost.ms : cost.error) > goal.budget) continue;
     const Cost* const before = best < 0 ? nullptr : &contenders[static_cast<size_t>(best)].cost;
     const bool better =
-        before == nullptr || (goal.by_time ? errs_less(cost, *before) : cost.ms < (1 - kTimeNoise) * before->ms);
+        before == nullptr ||
+        (goal.by_time ? cost.error < (1 - kErrorNoise) * before->error : cost.ms < (1 - kTimeNoise) * before->ms);
     if (better) best = static_cast<int>(i);
   }
   return best;
@@ -103,6 +117,7 @@ Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, con
     if (search.cost().ms > budget) return search.result(goal, false);
     if (!search.climb([&](const Cost& c, const Cost& was) { return c.ms <= budget && c.error < was.error; }, errs_less))
       return search.error();
+    if (!search.prefer_exact(budget)) return search.error();
     return search.result(goal, true);
   }
   if (!search.start(plain_settings(knobs, settings))) return search.error();

@@ -29,9 +29,11 @@ struct Tuned {
 
 // Times that differ by less are taken for equal: so near to each other, they change from run to run.
 inline constexpr double kTimeNoise = 0.02;
+// Errors that differ by less, too: the ground truth errs more, and chance decides which technique is the nearer to it.
+inline constexpr double kErrorNoise = 0.01;
 
 // Which of the settings that keep the budget is the best, once their times were measured again: by time the one that errs least
-// of those that still keep it; by error the fastest, but the first where none is faster by more than noise. -1: none keeps the
+// of those that still keep it, by error the fastest; the first where none is better by more than noise. -1: none keeps the
 // budget.
 int choose_again(const std::vector<Tried>& contenders, const TuneGoal& goal);
 
@@ -39,7 +41,7 @@ int choose_again(const std::vector<Tried>& contenders, const TuneGoal& goal);
 using Evaluate = std::function<Result<Cost>(const Settings&)>;
 
 // Turns one knob at a time, that which helps most, until none does. By time: from every knob at its cheapest upward, staying
-// within the budget. By error: from every technique exact, downward; where one sample a pixel does not keep the bound, upward
+// within the budget; in the end every technique is exact that can be without breaking it or erring more. By error: from every technique exact, downward; where one sample a pixel does not keep the bound, upward
 // first. It finds what no single turn improves, which need not be the best of all combinations. settings: what is not a knob.
 // Errors: those of `evaluate`.
 Result<Tuned> tune(const std::vector<Knob>& knobs, const Settings& settings, const TuneGoal& goal, const Evaluate& evaluate);

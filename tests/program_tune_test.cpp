@@ -86,6 +86,20 @@ TEST_F(Tuner, ALittleIsEnoughWhereItKeepsTheBudget) {
   EXPECT_EQ(t.value().cost.ms, 9.94);
 }
 
+TEST_F(Tuner, OfSettingsThatErrAlikeTheMoreExactAreTaken) {
+  const auto chosen = [&](double fast_error, double exact_ms) {
+    const Result<demo::Tuned> t = demo::tune(knobs_, settings_, {true, 20}, [&](const Settings& s) {
+      const bool fast = s.powers == Powers::kFast;
+      return Result<Cost>(Cost{fast ? 10 : exact_ms, fast ? fast_error : 0.5});
+    });
+    EXPECT_TRUE(t);
+    return t.value().settings.powers;
+  };
+  EXPECT_EQ(chosen(0.499, 11), Powers::kExact) << "that much is chance";
+  EXPECT_EQ(chosen(0.4, 11), Powers::kFast) << "that much is not";
+  EXPECT_EQ(chosen(0.499, 21), Powers::kFast) << "the budget comes first";
+}
+
 TEST_F(Tuner, SaysWhenNothingKeepsTheBudget) {
   const demo::Tuned slow = tuned(true, 9), bad = tuned(false, 0.2);
   EXPECT_FALSE(slow.kept);
@@ -125,6 +139,7 @@ TEST(TunerAgain, TheSecondMeasurementDecides) {
   EXPECT_EQ(chosen({{11, 0.1}, {8, 0.2}, {9, 0.15}}, {true, 10}), 2)
       << "the winner was lucky: the best of those that still keep it";
   EXPECT_EQ(chosen({{11, 0.1}, {10.5, 0.2}}, {true, 10}), -1);
+  EXPECT_EQ(chosen({{9, 0.1}, {8, 0.0999}}, {true, 10}), 0) << "a thousandth is noise";
   EXPECT_EQ(chosen({{10, 0.1}, {9.9, 0.1}, {11, 0.1}}, {false, 0.2}), 0) << "1 % is noise";
   EXPECT_EQ(chosen({{10, 0.1}, {9.5, 0.2}, {9.4, 0.3}}, {false, 0.2}), 1);
 }
