@@ -44,13 +44,10 @@ std::string milliseconds(double v) {
   std::snprintf(text, sizeof text, v >= 100 ? "%.0f" : v >= 10 ? "%.1f" : "%.2f", v);
   return text;
 }
-std::string head(std::initializer_list<const char*> titles) {
+std::string head(std::initializer_list<Title> titles) {
   std::string text = "<tr>";
-  bool first = true;
-  for (const char* title : titles) {
-    const bool left = *title == '<';
-    text += std::string(first || left ? "<th class=\"text\">" : "<th>") + (left ? title + 1 : title) + "</th>", first = false;
-  }
+  for (const Title& title : titles)
+    text += std::string(&title == titles.begin() || title.text ? "<th class=\"text\">" : "<th>") + title.html + "</th>";
   return text + "</tr>\n";
 }
 

@@ -14,8 +14,15 @@ std::string base64(const std::string& bytes);
 // text: HTML. kind: of the style sheet.
 std::string cell(const std::string& text, const char* kind = "");
 std::string cell(double v);
-// A row of titles, which are HTML; the first is that of the column of names. Of those that begin with '<', which is left out,
-// the column is text as well.
-std::string head(std::initializer_list<const char*> titles);
+// HTML, over a column of numbers or of text.
+struct Title {
+  const char* html;
+  bool text = false;
+  Title(const char* title) : html(title) {}
+  Title(const char* title, bool over_text) : html(title), text(over_text) {}
+};
+inline Title over_text(const char* title) { return {title, true}; }
+// A row of titles; the first is that of the column of names, which are text.
+std::string head(std::initializer_list<Title> titles);
 
 }  // namespace spanray::demo

@@ -149,7 +149,7 @@ std::string knob_table(const Report& r) {
       "errs and not the lack of samples. <i>Wrong ids</i>: pixels whose center sees another triangle than the reference "
       "says.</p>\n<div class=\"wide\"><table>" +
       head({"Setting", "median ms", "p95 ms", "of plain", "wrong ids", "FLIP", "FLIP alone", "max", "p99.9", "off by &gt; 1",
-            "RMSE linear", "relMSE", "PSNR dB", "SSIM", "<Pareto"});
+            "RMSE linear", "relMSE", "PSNR dB", "SSIM", over_text("Pareto")});
   text += setting_row(r, 0, r.trade.settings[0].candidate.name);
   const auto rows_of = [&](const std::string& group) {
     std::string rows;
@@ -178,7 +178,7 @@ std::string preset_table(const Report& r) {
   std::string text =
       "<h2>The presets</h2>\n<p>What <code>--preset</code> of <code>render</code> and <code>walk</code> costs and errs on this "
       "scene.</p>\n<div class=\"wide\"><table>" +
-      head({"Preset", "median ms", "p95 ms", "FLIP", "RMSE linear", "PSNR dB", "<Pareto", "<what it asks for"});
+      head({"Preset", "median ms", "p95 ms", "FLIP", "RMSE linear", "PSNR dB", over_text("Pareto"), over_text("what it asks for")});
   for (const Preset& preset : kPresets)
     for (size_t i = 0; i < r.trade.settings.size(); ++i) {
       const Measured& m = r.trade.settings[i];

@@ -93,6 +93,31 @@ TEST(RayTrace, ClosestAnyAndAllAgreeOnEveryInstructionSet) {
   for (int i = 0; i < rays.count; i += 100) ASSERT_EQ(first.closest[static_cast<size_t>(i)], brute_force_closest(t->scene, rays, i)) << i;
 }
 
+// Some rays leave the triangle that they would hit first, some another one, some none; then all of them the same one.
+TEST(RayTrace, RaysNeverHitTheTriangleThatTheyLeave) {
+  std::vector<SoupTriangle> soup;
+  TestRandom random(31);
+  add_random_triangles(soup, random, 300, 0.8);
+  auto t = frame_of(soup);
+  const Bvh bvh = build_all(*t);
+  for (const bool coherent : {false, true}) {
+    RayBatch rays = coherent ? make_rays(2003) : random_rays(random, 2003);
+    if (coherent)
+      for (int i = 0; i < rays.count; ++i) set_ray(rays, i, {0, 0, -3}, glm::dvec3(0, 0, 1) + random_point(random, i % 32 < 16 ? 0.01 : 0.3));
+    const Answers free = brute_force(*t, rays);
+    const uint32_t often = free.closest[static_cast<size_t>(std::find_if(free.closest.begin(), free.closest.end(), [](uint32_t p) { return p != kNoPrimitive; }) - free.closest.begin())];
+    for (const bool all_one : {false, true}) {
+      rays.from.resize(static_cast<size_t>(rays.count));
+      for (size_t i = 0; i < rays.from.size(); ++i)
+        rays.from[i] = all_one ? often : i % 3 == 0 ? kNoPrimitive : i % 3 == 1 ? free.closest[i] : static_cast<uint32_t>(i % soup.size());
+      const auto another = [&](int i, uint32_t p) { return p != rays.from[static_cast<size_t>(i)]; };
+      const Answers want = brute_force(*t, rays, another, another);
+      EXPECT_NE(want.closest, free.closest);
+      for (const Isa isa : supported_isas()) expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
+    }
+  }
+}
+
 TEST(RayTrace, Y8_CoincidentTrianglesGiveTheLowestId) {
   TestRandom random(25);
   std::vector<SoupTriangle> base;

@@ -157,6 +157,7 @@ static uint64_t for_shadow_rays(TestFrame& t, const Bvh& bvh, const SurfaceBatch
     RayBatch batch;
     AlignedBuffer<uint32_t> of;
     make_shadow_rays(t.frame, surfaces, 0, batch, of);
+    batch.from.clear();  // where they start must do by itself
     std::vector<uint32_t> closest(static_cast<size_t>(batch.count));
     trace_closest(t.frame, bvh, batch, closest.data());
     for (size_t i = 0; i < closest.size(); ++i) answer(closest[i], surfaces.primitive[of[i]]);

@@ -36,6 +36,7 @@ void count_shadow_rays(TestFrame& t, const Bvh& bvh, const SurfaceBatch& surface
   RayBatch rays;
   AlignedBuffer<uint32_t> of;
   make_shadow_rays(t.frame, surfaces, 0, rays, of);
+  rays.from.clear();  // where they start must do by itself
   counts.checked += static_cast<uint64_t>(rays.count);
   for (size_t k = 0; k < 3; ++k) {
     const RayBatch moved = k == 0 ? RayBatch{} : moved_by(rays, of, surfaces, kEpsilons[k - 1]);

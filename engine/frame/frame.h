@@ -55,7 +55,7 @@ struct Frame {
   Parallel* parallel = nullptr;
   const uint32_t* material_flags = nullptr;  // MaterialFlags by material
   AcceptRowFn accept_row = nullptr;
-  AcceptRayFn accept_ray = nullptr;
+  AcceptRayFn accept_ray = nullptr;  // none: no material is masked
   Light eye_light;  // the scene's only light, where that one follows the eye
 };
 

@@ -80,22 +80,25 @@ class TriangleClipper {
     for (int i = 1; i < n; ++i) top = std::min(top, polygon[i].y_24_8), bottom = std::max(bottom, polygon[i].y_24_8);
     const SamplePlaces& s = frame_.places;
     for (int place = s.first(); place < s.end(); ++place) {  // each has its own row (tests/raster_samples_test.cpp)
-      const int32_t dx = s.offset_x_24_8[place], dy = s.offset_y_24_8[place];
-      const int32_t first = kSubpixels / 2 + dx, last = first + (frame_.grid.width - 1) * kSubpixels;
+      const int32_t dy = s.offset_y_24_8[place];
       const int end = std::min(first_center(bottom - dy), frame_.grid.height);
-      for (int row = std::max(first_center(top - dy), 0); row < end; ++row) {
-        const int32_t y = row * kSubpixels + kSubpixels / 2 + dy;
-        RowRun run[kMaxClipVertices / 2];
-        const int runs = inside_runs(polygon, n, y, run);
-        for (int i = 0; i < runs; ++i) {
-          static_assert(2 * kMaxImageSide <= kGuardBandPixels);  // triangle_of_run doubles the width
-          const RowRun seen{std::max(run[i].begin, first), std::min(run[i].end, last + 1)};
-          if (seen.begin >= seen.end) continue;
-          SnappedPoint p[3];
-          triangle_of_run(seen, y, p);
-          emit(p, original);
-        }
-      }
+      for (int row = std::max(first_center(top - dy), 0); row < end; ++row)
+        emit_row(polygon, n, row * kSubpixels + kSubpixels / 2 + dy, kSubpixels / 2 + s.offset_x_24_8[place], original);
+    }
+  }
+
+  // first: of the picture's samples in that row, 24.8.
+  void emit_row(const SnappedPoint* polygon, int n, int32_t y, int32_t first, const ScreenTriangle& original) {
+    static_assert(2 * kMaxImageSide <= kGuardBandPixels);  // triangle_of_run doubles the width
+    const int32_t last = first + (frame_.grid.width - 1) * kSubpixels;
+    RowRun run[kMaxClipVertices / 2];
+    const int runs = inside_runs(polygon, n, y, run);
+    for (int i = 0; i < runs; ++i) {
+      const RowRun seen{std::max(run[i].begin, first), std::min(run[i].end, last + 1)};
+      if (seen.begin >= seen.end) continue;
+      SnappedPoint p[3];
+      triangle_of_run(seen, y, p);
+      emit(p, original);
     }
   }
 

@@ -245,12 +245,12 @@ struct ClosestPacket : PacketTask {
     const TriangleBlock& block = data.blocks[leaf_block(child)];
     for (uint32_t rest = triangles_ahead(block, child, beam); rest != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
-      LaneDistances t;
+      BoundsOnT<F32> t;
       const LaneHits hits = triangle_lanes<SureHits::kOfClosest>(p, block, j, &t);
       uint32_t maybe = hits.maybe & rays;
       if (maybe == 0) continue;
-      maybe &= ~leaving(block.primitive[j]);
       const uint32_t primitive = block.primitive[j], at = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(j);
+      maybe &= ~leaving(primitive);
       const uint32_t nearer = hits.sure & maybe & to_bits(t.high < low);
       maybe &= ~(nearer | (hits.sure & to_bits(t.low > p.limit)));
       if (nearer != 0)

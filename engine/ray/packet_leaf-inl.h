@@ -31,14 +31,13 @@ HWY_INLINE AlongAxes vertex_along(const RayPacket& p, const TriangleBlock& block
 // Rays that might hit a triangle at no more than their limit, and those of them that surely do: hit_triangle() would accept
 // them. For any hit also at less than the limit; for the closest, low <= t <= high for its t.
 struct LaneHits { uint32_t maybe, sure; };
-struct LaneDistances { F32 low, high; };
 enum class SureHits { kOfAny, kOfClosest };
 
 // Sure: inside by more than the error of the edge functions, and every vertex in front of the origin. Any hit: and nearer than the limit, also
 // after rounding: t lies between those of the vertices, whose numbers here are at most 10 roundings too small.
-// Closest: see kSureWeights.
+// Closest: see bounds_on_t().
 template <SureHits kSure>
-HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& block, int triangle, LaneDistances* distances = nullptr) {
+HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& block, int triangle, BoundsOnT<F32>* distances = nullptr) {
   F32 x[3], y[3], t[3];
   for (int v = 0; v < 3; ++v) {
     const AlongAxes a = vertex_along(p, block, v, triangle);
@@ -61,12 +60,8 @@ HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& bloc
   if constexpr (kSure == SureHits::kOfAny) {
     hits.sure = hits.maybe & to_bits(inside & (last * f32(1 + 0x1p-20f) < p.limit));
   } else {
-    const F32 det = edge_u + edge_v + edge_w, one_by_det = f32(1.0f) / det;
-    hits.sure = hits.maybe & to_bits(inside & (abs_(det) > f32(kLeastSureDet)));
-    const F32 middle = cull_mul_add(edge_u * one_by_det, t[0], cull_mul_add(edge_v * one_by_det, t[1], edge_w * one_by_det * t[2]));
-    const F32 rounding = cull_mul_add(f32(kSureRounding), last, f32(kSureUnderflow));
-    const F32 off = cull_mul_add(f32(kSureWeights) * error * (last - first), abs_(one_by_det), rounding);
-    *distances = {middle - off, middle + off};
+    *distances = bounds_on_t<F32, f32>(edge_u, edge_v, edge_w, t, error, first, last);
+    hits.sure = hits.maybe & to_bits(inside & (distances->size > f32(kLeastSureSize)));
   }
   return hits;
 }

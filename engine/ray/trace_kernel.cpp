@@ -44,7 +44,7 @@ HWY_INLINE int same_cell(const RayBatch& rays, int first) {
 void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
   std::fill_n(out, rays.count, kNoPrimitive);
   if (data.nodes.empty()) return;
-  const Batch batch(frame, rays, frame.settings.culling == Culling::kBack);
+  const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
   ClosestPacket packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);
@@ -58,7 +58,7 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
 void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
   std::fill_n(out, (rays.count + 31) / 32, 0u);
   if (data.nodes.empty()) return;
-  const Batch batch(frame, rays, false);
+  const Batch batch{frame, rays, false};
   AnyPacket packet(data, batch);
   AnyStream stream(data, batch);
   Shaft shaft;
@@ -88,7 +88,7 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
 // Hits of one ray stay together, in no order: rays go alone.
 void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {
   if (data.nodes.empty()) return;
-  const Batch batch(frame, rays, frame.settings.culling == Culling::kBack);
+  const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
   PacketTask packet(data, batch);
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);

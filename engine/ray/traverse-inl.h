@@ -45,8 +45,16 @@ HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay
 // Where a ray surely passes inside a triangle whose vertices are all in front of it, bounds on t in float order most hits: t is the mean of
 // the vertices', weighted by the edge functions. With these off by at most `error` each, the errors of the weights sum up to 6 error / |det|
 // at most, and move t by no more than that share of what the vertices' t differ by. Roundings are less than 2^-19 of the greatest t.
-inline constexpr float kSureWeights = 6.1f, kSureRounding = 0x1p-18f, kSureUnderflow = 0x1p-120f;
-inline constexpr float kLeastSureDet = 0x1p-100f;  // above, det has the precision of normal floats
+// F: lanes; same: a number in all of them. t: of the vertices, from first to last.
+template <class F> struct BoundsOnT { F low, high, size; };  // size: |det|
+inline constexpr float kLeastSureSize = 0x1p-100f;  // of det: above, it has the precision of normal floats
+template <class F, F (*same)(float)>
+HWY_INLINE BoundsOnT<F> bounds_on_t(F edge_u, F edge_v, F edge_w, const F (&t)[3], F error, F first, F last) {
+  const F det = edge_u + edge_v + edge_w, one_by_det = same(1.0f) / det;
+  const F middle = edge_u * one_by_det * t[0] + edge_v * one_by_det * t[1] + edge_w * one_by_det * t[2];
+  const F off = same(6.1f) * error * (last - first) * abs_(one_by_det) + (same(0x1p-18f) * last + same(0x1p-120f));
+  return {middle - off, middle + off, abs_(det)};
+}
 
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
 // that it accepts. Any hit: at less than the limit: the ray passes inside by more than the error of the edge functions, every vertex is in
@@ -83,12 +91,9 @@ HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray,
     if constexpr (Visitor::kAny) {
       found.sure |= (to_bits(inside & (last * f8(1 + 0x1p-20f) < f8(limit))) & maybe) << s;
     } else {
-      const F8 det = edge_u + edge_v + edge_w, one_by_det = f8(1.0f) / det;
-      found.sure |= (to_bits(inside & (abs_(det) > f8(kLeastSureDet))) & maybe) << s;
-      const F8 middle = edge_u * one_by_det * t[0] + edge_v * one_by_det * t[1] + edge_w * one_by_det * t[2];
-      const F8 off = f8(kSureWeights) * error * (last - first) * abs_(one_by_det) + (f8(kSureRounding) * last + f8(kSureUnderflow));
-      (middle - off).store(distances.low + s);
-      (middle + off).store(distances.high + s);
+      const BoundsOnT<F8> bounds = bounds_on_t<F8, f8>(edge_u, edge_v, edge_w, t, error, first, last);
+      found.sure |= (to_bits(inside & (bounds.size > f8(kLeastSureSize))) & maybe) << s;
+      bounds.low.store(distances.low + s), bounds.high.store(distances.high + s);
     }
   }
   return found;

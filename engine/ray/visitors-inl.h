@@ -19,23 +19,17 @@ struct Batch {
   const Frame& frame;
   const RayBatch& rays;
   bool cull_back;
-  bool asks;  // some material is masked
-
-  HWY_INLINE Batch(const Frame& f, const RayBatch& r, bool culls) : frame(f), rays(r), cull_back(culls), asks(false) {
-    if (frame.accept_ray == nullptr) return;
-    for (size_t i = 0; i < frame.scene->materials.size(); ++i) asks = asks || (frame.material_flags[i] & kMaterialMasked) != 0;
-  }
 
   // Does the surface itself take the hit? Asked only for hits that count.
   HWY_INLINE bool accepts(int ray, const float* origin, uint32_t primitive) const {
     const SceneData& scene = *frame.scene;
     if (cull_back && !(facing(scene, scene.triangles[primitive], {origin[0], origin[1], origin[2]}) > 0)) return false;
-    if (!asks || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
+    if (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
     return frame.accept_ray(frame, rays, ray, primitive);
   }
   // It takes every hit.
   HWY_INLINE bool takes_all(uint32_t primitive) const {
-    return !cull_back && (!asks || !(flags_of(frame, primitive) & kMaterialMasked));
+    return !cull_back && (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked));
   }
 };
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "reference/light.h"
+
 namespace spanray::reference {
 namespace {
 
@@ -155,13 +157,12 @@ Bundle mirrored_bundle(const std::vector<Ray>& rays, const glm::dvec3& normal, d
 Beam shadow_beam(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal, const Light& light, double error) {
   Beam beam;
   beam.origin = middle(polygon);
-  const bool point = light.kind == static_cast<int32_t>(LightKind::kPoint);
-  const glm::dvec3 way = point ? to_dvec(light.position) - beam.origin : -to_dvec(light.direction), d = normalize3(way, normal);
-  if (!add_prism(
-          beam, polygon, [&](const glm::dvec3& x) { return point ? to_dvec(light.position) - x : d; }, error))
-    beam.sides.clear(), add_box(beam, polygon, d, error);
+  const Way way = way_to(light, beam.origin);
+  const glm::dvec3 d = normalize3(way.line.direction, normal);
+  const auto to_light = [&](const glm::dvec3& x) { return way_to(light, x).line.direction; };
+  if (!add_prism(beam, polygon, to_light, error)) beam.sides.clear(), add_box(beam, polygon, d, error);
   beam.ends.push_back({-normal, -error});
-  if (point) beam.ends.push_back({d, length3(way) * (1 - 0x1p-16)});
+  if (std::isfinite(way.t_max)) beam.ends.push_back({d, length3(way.line.direction) * way.t_max});
   return beam;
 }
 

@@ -95,12 +95,11 @@ bool RangeShader::add(const Bundle& bundle, const Piece& piece, const glm::dvec3
 RangeShader::Lit RangeShader::lit(const Bundle& bundle, const Piece& piece, const Seen& seen, const Light& light) const {
   if (settings_.shadows == Shadows::kNone) return Lit::kYes;
   const Beam beam = shadow_beam(piece.corner, seen.normal, light, seen.error);
-  const bool point = light.kind == static_cast<int32_t>(LightKind::kPoint);
-  const auto to_light = [&](const glm::dvec3& x) { return point ? to_dvec(light.position) - x : -to_dvec(light.direction); };
+  const auto to_light = [&](const glm::dvec3& x) { return way_to(light, x).line.direction; };
   const auto ray_to = [&](const glm::dvec3& x) {  // a point: cut-outs are read at full detail
     Ray ray;
     const glm::dvec3 way = to_light(x);
-    ray.line = {x - way * (point ? dot3(x - beam.origin, way) / dot3(way, way) : dot3(x - beam.origin, way)), way};
+    ray.line = {x - way * (dot3(x - beam.origin, way) / dot3(way, way)), way};
     ray.x = bundle.center.x, ray.y = bundle.center.y;
     return ray;
   };
