@@ -46,6 +46,11 @@ float pow_lane(float base, float exponent) {
   pow_(f32(base), f32(exponent)).store(out);
   return out[0];
 }
+float highlight_pow_lane(float base, float exponent) {
+  float out[kLanes];
+  highlight_pow_(f32(base), f32(exponent)).store(out);
+  return out[0];
+}
 float fast_pow_lane(float base, float exponent) {
   float out[kLanes];
   fast_pow_(f32(base), f32(exponent)).store(out);
@@ -60,8 +65,10 @@ namespace spanray {
 namespace formula_scalar {
 using namespace scalar;
 inline float pow_(float base, float exponent) { return N_SCALAR::pow_lane(base, exponent); }
+inline float highlight_pow_(float base, float exponent) { return N_SCALAR::highlight_pow_lane(base, exponent); }
 inline float fast_pow_(float base, float exponent) { return N_SCALAR::fast_pow_lane(base, exponent); }
 inline double fast_pow_(double base, double exponent) { return std::pow(base, exponent); }
+inline double highlight_pow_(double base, double exponent) { return base > 0 ? std::pow(base, exponent) : 0; }
 inline double pow_(double base, double exponent) { return std::pow(base, exponent); }
 #include "catalog/vocabulary.inl"
 #include "catalog_reflectance.inc"

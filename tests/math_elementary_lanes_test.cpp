@@ -25,6 +25,9 @@ void log2_kernel(const float* a, const float*, float* out, size_t n) {
 void pow_kernel(const float* a, const float* b, float* out, size_t n) {
   for (size_t i = 0; i < n; i += kLanes) pow_(F32::load(a + i), F32::load(b + i)).store(out + i);
 }
+void highlight_pow_kernel(const float* a, const float* b, float* out, size_t n) {
+  for (size_t i = 0; i < n; i += kLanes) highlight_pow_(F32::load(a + i), F32::load(b + i)).store(out + i);
+}
 void fast_pow_kernel(const float* a, const float* b, float* out, size_t n) {
   for (size_t i = 0; i < n; i += kLanes) fast_pow_(F32::load(a + i), F32::load(b + i)).store(out + i);
 }
@@ -39,6 +42,7 @@ using Fn = void (*)(const float*, const float*, float*, size_t);
 const Fn kExp2[kIsaCount] = SPANRAY_KERNEL_TABLE(exp2_kernel);
 const Fn kLog2[kIsaCount] = SPANRAY_KERNEL_TABLE(log2_kernel);
 const Fn kPow[kIsaCount] = SPANRAY_KERNEL_TABLE(pow_kernel);
+const Fn kHighlightPow[kIsaCount] = SPANRAY_KERNEL_TABLE(highlight_pow_kernel);
 const Fn kFastPow[kIsaCount] = SPANRAY_KERNEL_TABLE(fast_pow_kernel);
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -150,6 +154,33 @@ TEST(ElementaryLanes, S1_PowOfSpecularWithinBound) {
   }
   for (uint32_t i = 0; i < 200; ++i) t.add(from_bits(0x3f800008u - i), 1e4f), t.add(from_bits(0x3f800008u - i), 1.0f);
   EXPECT_LE(worst_error(kPow, t, exact_pow, pow_ulp), 1);
+}
+
+// Without pow_'s special cases; with its bits.
+TEST(ElementaryLanes, HighlightPowIsPow) {
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<float> unit(0, 1), log_exponent(-3, 4);
+  Table t;
+  for (int i = 0; i < 60000; ++i) {
+    const float base = i % 3 == 0 ? 1 - unit(rng) * 0x1p-10f : i % 3 == 1 ? unit(rng) : std::ldexp(1 + unit(rng), -126 + i % 126);
+    t.add(std::min(base, 1.0f), i % 50 == 0 ? 0.0f : std::pow(10.0f, log_exponent(rng)));
+  }
+  for (const float n : {0.0f, 0.5f, 1.0f, 32.0f, 1e4f}) t.add(1, n), t.add(0x1p-126f, n);
+  t.pad();
+  const std::vector<float> expected = run_everywhere(kPow, t), got = run_everywhere(kHighlightPow, t);
+  for (size_t i = 0; i < t.a.size(); ++i) {
+    if (t.a[i] < 0x1p-126f) continue;
+    ASSERT_EQ(to_bits(got[i]), to_bits(expected[i])) << t.a[i] << " ^ " << t.b[i];
+  }
+
+  Table below;
+  for (const float n : {0.0f, 1e-3f, 0.5f, 1.0f, 1e4f}) below.add(0, n), below.add(0x1p-149f, n), below.add(0x1p-126f, n);
+  below.pad();
+  const std::vector<float> r = run_everywhere(kHighlightPow, below);
+  for (size_t i = 0; i + 2 < 15; i += 3) {
+    EXPECT_EQ(r[i], 0) << "0 ^ " << below.b[i];
+    EXPECT_EQ(to_bits(r[i + 1]), to_bits(r[i + 2])) << "2^-149 ^ " << below.b[i];
+  }
 }
 
 // Relative error, as documented, of results that are not tiny; tiny ones stay so, and no result is subnormal.

@@ -1,5 +1,5 @@
-// The operations of catalog/vocabulary.inl for float and double, so that formula files serve scalar code and tests too. pow_
-// and fast_pow_ are left to the user: which ones is part of the contract.
+// The operations of catalog/vocabulary.inl for float and double, so that formula files serve scalar code and tests too. pow_,
+// highlight_pow_ and fast_pow_ are left to the user: which ones is part of the contract.
 #pragma once
 #include <cmath>
 

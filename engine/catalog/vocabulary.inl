@@ -38,7 +38,7 @@ template <class F> struct Cosines {
 };
 // base^exponent of a highlight, as the frame asks for it: base in [0, 1], exponent in [0, 1e4].
 template <class F> SPANRAY_FORMULA F highlight_power(const Cosines<F>& c, F base, F exponent) {
-  return c.fast_powers ? fast_pow_(base, exponent) : pow_(base, exponent);
+  return c.fast_powers ? fast_pow_(base, exponent) : highlight_pow_(base, exponent);
 }
 
 // |l + v| below which l and v count as opposite: h is then mostly rounding error (HARD-CASES S2).

@@ -19,6 +19,7 @@ struct PlanFlags {
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
   bool raw_normals = false;   // interpolated normals stay as they are (Settings::normals), and some triangle's corners differ
   bool coarse_quads = false;  // render/coarse_quads.h
+  bool depths = true, weights = true;  // somebody reads t and weights of surfaces
   uint32_t maps = 0;  // MaterialMaps that some material has
 };
 

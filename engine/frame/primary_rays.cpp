@@ -44,6 +44,8 @@ PrimaryRays make_primary_rays(const Camera& camera, int width, int height) {
   const double pixel_size = tan_(camera.fov_y_degrees * (kPi / 360)) / half_height;  // at view depth 1
   rays.step_x = right * pixel_size;
   rays.step_y = up * -pixel_size;
+  for (int k = 0; k < 3; ++k)
+    rays.single_step_x[k] = static_cast<float>(rays.step_x[k]), rays.single_step_y[k] = static_cast<float>(rays.step_y[k]);
   rays.corner = rays.forward - rays.step_x * half_width - rays.step_y * half_height;
   rays.pixel_row_x = right * (1 / pixel_size) + rays.forward * half_width;
   rays.pixel_row_y = up * (-1 / pixel_size) + rays.forward * half_height;

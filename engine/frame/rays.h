@@ -19,6 +19,7 @@ struct PrimaryRays {
   // Homogeneous pixel position of a world point p: dot(row.xyz, p - eye) for X, Y, W; pixel = (X / W, Y / W), W = view depth.
   // The eye is subtracted first, in double: worlds far from the origin keep their digits.
   glm::dvec3 pixel_row_x{0}, pixel_row_y{0};
+  float single_step_x[3] = {}, single_step_y[3] = {};  // step_x and step_y, rounded
 };
 
 // Pixels are named x | y << 16 everywhere.

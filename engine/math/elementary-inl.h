@@ -70,26 +70,20 @@ HWY_INLINE F32 log2_(F32 x) {
   return select(x >= F32::zero(), r, float_from_bits(i32(0x7fc00000)));
 }
 
-// base^exponent, in float: what a highlight costs is mostly this. Input: base >= 0, any exponent. With r the result,
-// error <= 2.5 (1 + |log2(r)|) ulp of the exact result, gradual underflow included.
-// Source:   2^(exponent log2(base)). log2(1 + f) = f P(f), P of degree 8, relative error 2^-25.2; 2^r, |r| <= 1/2, by degree 6, relative
-//           error 2^-29: both by our own Remez iteration. The logarithm is accurate to a few ulp near base = 1 too, where highlights are.
-// Contract: pow(x, 0) = 1 for every x, also 0; pow(0, n > 0) = 0; pow(0, n < 0) = infinity; pow(1, n) = 1; never NaN.
-//           A base that is negative or NaN counts as 0, an infinite one as 2^128. A NaN exponent, or an infinite one of
-//           base 1, gives 0.
-HWY_INLINE F32 pow_(F32 base, F32 exponent) {
-  const F32 zero = F32::zero(), one = f32(1.0f), infinity = float_from_bits(i32(0x7f800000));
-  const Mask subnormal = base < f32(0x1p-126f);
-  const I32 bits = bits_of(select(subnormal, base * f32(0x1p24f), base));
+// 2^(exponent (log2(base) - octaves_less)), the exponent of 2 held in [-200, 200], of a positive normal base: the core of pow_, in float.
+// Source:   log2(1 + f) = f P(f), P of degree 8, relative error 2^-25.2; 2^r, |r| <= 1/2, by degree 6, relative error 2^-29: both by our
+//           own Remez iteration. The logarithm is accurate to a few ulp near base = 1 too, where highlights are.
+HWY_INLINE F32 pow_of_normal(F32 base, I32 octaves_less, F32 exponent) {
+  const I32 bits = bits_of(base);
   const I32 octave = shift_right<23>(bits - i32(0x3f3504f3));  // of base / sqrt(1/2)
-  const F32 f = float_from_bits(bits - shift_left<23>(octave)) - one;
+  const F32 f = float_from_bits(bits - shift_left<23>(octave)) - f32(1.0f);
   const auto line = [](float a, float b, F32 x) HWY_ATTR { return mul_add(f32(a), x, f32(b)); };
   // Pairs of terms (Estrin 1960): what waits for what is half as long as one after the other.
   const F32 f2 = f * f, f4 = f2 * f2;
   const F32 low = mul_add(line(-0x1.715c4ep-2f, 0x1.ec73d6p-2f, f), f2, line(-0x1.715470p-1f, 0x1.715476p+0f, f));
   const F32 high = mul_add(line(-0x1.a87d0ap-3f, 0x1.b9c91ap-3f, f), f2, line(-0x1.e95be6p-3f, 0x1.26d384p-2f, f));
   const F32 p = mul_add(mul_add(f32(0x1.01b6dap-3f), f4, high), f4, low);
-  const F32 log2 = mul_add(p, f, to_f32(octave - select(subnormal, i32(24), i32(0))));
+  const F32 log2 = mul_add(p, f, to_f32(octave - octaves_less));
 
   const F32 x = min_(max_(log2 * exponent, f32(-200.0f)), f32(200.0f));  // NaN -> -200
   const I32 whole = nearest_i32_small(x), half = shift_right<1>(whole);
@@ -99,9 +93,26 @@ HWY_INLINE F32 pow_(F32 base, F32 exponent) {
   const F32 fraction = mul_add(end, r2 * r2, mul_add(line(0x1.c6aed4p-5f, 0x1.ebfbdap-3f, r), r2, line(0x1.62e430p-1f, 1.0f, r)));
   // Two powers of two, both normal: the second product rounds once, to a subnormal number or to infinity.
   const auto power_of_two = [](I32 n) HWY_ATTR { return float_from_bits(shift_left<23>(n + i32(127))); };
-  const F32 power = fraction * power_of_two(half) * power_of_two(whole - half);
+  return fraction * power_of_two(half) * power_of_two(whole - half);
+}
+
+// base^exponent, in float. Input: base >= 0, any exponent. With r the result,
+// error <= 2.5 (1 + |log2(r)|) ulp of the exact result, gradual underflow included.
+// Contract: pow(x, 0) = 1 for every x, also 0; pow(0, n > 0) = 0; pow(0, n < 0) = infinity; pow(1, n) = 1; never NaN.
+//           A base that is negative or NaN counts as 0, an infinite one as 2^128. A NaN exponent, or an infinite one of
+//           base 1, gives 0.
+HWY_INLINE F32 pow_(F32 base, F32 exponent) {
+  const F32 zero = F32::zero(), one = f32(1.0f), infinity = float_from_bits(i32(0x7f800000));
+  const Mask subnormal = base < f32(0x1p-126f);
+  const F32 power = pow_of_normal(select(subnormal, base * f32(0x1p24f), base), select(subnormal, i32(24), i32(0)), exponent);
   const F32 positive = select(base > zero, power, select(exponent < zero, infinity, zero));
   return select(exponent == zero, one, positive);
+}
+
+// pow_ for highlights, where it costs most: base in [0, 1], exponent in [0, 1e4]. The same bits but for a base below 2^-126, which counts as
+// that, and base 0, which gives 0 also for exponent 0.
+HWY_INLINE F32 highlight_pow_(F32 base, F32 exponent) {
+  return select(base > F32::zero(), pow_of_normal(max_(base, f32(0x1p-126f)), I32::zero(), exponent), F32::zero());
 }
 
 // base^exponent for highlights, with fewer terms and no special cases. Input: base in [0, 1], exponent in [0, 1e4].

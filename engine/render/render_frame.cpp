@@ -29,6 +29,12 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
   ladder.set(Rung::kVertices, hash.value());
 }
 
+// The plan does not know what else the caller asks for.
+void leave_out_unread(const FrameRequest& request, PlanFlags& plan) {
+  plan.depths = plan.translucents || request.depth || request.ladder != nullptr;
+  plan.weights = plan.lit_vertices || request.uv || request.ladder != nullptr;
+}
+
 }  // namespace
 
 // What lives from frame to frame: threads, buffers, trees, lit vertices, the scene as it stands now. Trees are rebuilt when the scene or
@@ -74,7 +80,8 @@ struct Renderer::Impl {
 FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings, Framebuffer& out, const FrameRequest& request) {
   FrameStats stats;
   const double start = seconds_now();
-  const Plan plan = make_plan(scene.data(), use, settings);
+  Plan plan = make_plan(scene.data(), use, settings);
+  leave_out_unread(request, plan.flags);
   if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
   const RayTrees::Work followed = trees.update(standing(), plan, scene.data().moving_triangles, poses, *parallel);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "frame/ladder.h"
 #include "raster/raster.h"
@@ -82,18 +83,20 @@ void compact_hits(TileWorker& w, Level& level, bool primary) {
 }
 
 // What a batch of hits says, to their slots; what misses say, to all others.
-void scatter_hits(const FrameJob& job, const TileWorker& w, Level& level, bool primary) {
+void scatter_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
+  if (primary && level.hits.count == level.slots) {  // hits are then slots
+    for (int c = 0; c < 3; ++c) std::swap(level.radiance[c], w.radiance[c]);
+    if (job.frame.plan.depths) std::copy_n(level.surfaces.t, level.slots, level.opaque_t.data());
+    return;
+  }
   const float* from[4] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data(), level.surfaces.t};
   float* to[4] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data(), level.opaque_t.data()};
   const float* const background = job.frame.scene->background;
   const float miss[4] = {background[0], background[1], background[2], kInfinity};
-  const bool all = primary && level.hits.count == level.slots;  // hits are then slots
-  for (int k = 0; k < 4; ++k) {
-    if (all) std::copy_n(from[k], level.slots, to[k]);
-    else std::fill_n(to[k], level.slots, miss[k]);
-  }
-  for (int i = 0; i < level.hits.count && !all; ++i)
-    for (int k = 0; k < 4; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
+  const int fields = job.frame.plan.depths ? 4 : 3;
+  for (int k = 0; k < fields; ++k) std::fill_n(to[k], level.slots, miss[k]);
+  for (int i = 0; i < level.hits.count; ++i)
+    for (int k = 0; k < fields; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
 }
 
 // Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others.

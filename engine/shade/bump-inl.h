@@ -121,6 +121,7 @@ HWY_INLINE V3f apply_normal_map(const SceneData& scene, const UseLanes& use, Fil
 // unit vector. Continuous, and exactly n where there is nothing to clamp.
 HWY_INLINE V3f clamp_to_horizon(const V3f& n, const V3f& geometric) {
   const F32 cosine = dot(n, geometric);
+  if (all(cosine >= f32(kHorizonCosine))) return n;  // nearly always
   const V3f lifted = unit_or(n + geometric * (f32(kHorizonCosine) - cosine), 1e-12f, geometric);
   return select(cosine < f32(kHorizonCosine), lifted, n);
 }

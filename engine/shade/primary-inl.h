@@ -85,9 +85,11 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   const F64 step_x = p.d(kPlaneStepX), step_y = p.d(kPlaneStepY), s = f64(1.0) + (step_x * to_f64(at.dx) + step_y * to_f64(at.dy));
   const F32 single_s = to_f32(s);
   at.inverse = one / single_s;
-  const F64 r = to_f64(at.inverse);
-  const F64 two = f64(2.0), better = r * (two - s * r);  // Newton's method: 46 bits, then all
-  point.t = to_f32(p.d(kPlaneDepth) * (better * (two - s * better)));
+  if (frame.plan.depths) {
+    const F64 r = to_f64(at.inverse);
+    const F64 two = f64(2.0), better = r * (two - s * r);  // Newton's method: 46 bits, then all
+    point.t = to_f32(p.d(kPlaneDepth) * (better * (two - s * better)));
+  }
 
   const F32 b1 = p.f(kPlaneWeight) + at.moved(p.f(kPlaneWeight + 2), p.f(kPlaneWeight + 4));
   const F32 b2 = p.f(kPlaneWeight + 1) + at.moved(p.f(kPlaneWeight + 3), p.f(kPlaneWeight + 5));
@@ -103,12 +105,17 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
 
   const PrimaryRays& rays = frame.primary;
   const V3f none{zero, zero, zero};
-  point.view = unit_or(plane3(p, kPlaneView) - to_f32(broadcast(rays.step_x)) * at.dx - to_f32(broadcast(rays.step_y)) * at.dy, 0.0f, none);
+  const auto single = [](const float (&v)[3]) HWY_ATTR { return V3f{f32(v[0]), f32(v[1]), f32(v[2])}; };
+  point.view = unit_or(plane3(p, kPlaneView) - single(rays.single_step_x) * at.dx - single(rays.single_step_y) * at.dy, 0.0f, none);
   point.geometric = plane3(p, kPlaneGeometric);
   good = good & (dot(point.geometric, point.geometric) > zero);
   point.normal = point.geometric;
   if (frame.settings.shading != Shading::kFlat)
     point.normal = normal_of_blend(frame, plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
+  if (!frame.plan.bounces && !reads_textures(frame)) {
+    point.material = bits_of(p.f(kPlaneMaterial));
+    return good;
+  }
   const F32 single_x = to_f32(step_x), single_y = to_f32(step_y);
   if (frame.plan.bounces) {
     const F32 side = f32(static_cast<float>(frame.footprint));

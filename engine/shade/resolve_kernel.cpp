@@ -96,7 +96,8 @@ HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const Of
     return DifferentialLanes{zero, zero, broadcast(p.step_x) * side, broadcast(p.step_y) * side};
   });
   const auto take = [&](auto& field, const auto& other) HWY_ATTR { field = select(good, field, other); };
-  take(point.position, odd.position), take(point.position_error, odd.position_error), take(point.t, odd.t);
+  take(point.position, odd.position), take(point.position_error, odd.position_error);
+  if (frame.plan.depths) take(point.t, odd.t);
   take(point.weight, odd.weight), take(point.view, odd.view), take(point.geometric, odd.geometric), take(point.normal, odd.normal);
   if (frame.plan.bounces) take(point.dpdx, odd.dpdx), take(point.dpdy, odd.dpdy);
   if (!reads_textures(frame)) return;
@@ -111,8 +112,8 @@ HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at,
   const Group g{frame, out, at, lanes.valid, {}};
   put(g, out.position, point.position);
   put(g, out.position_error, point.position_error);
-  put(g, out.t, point.t);
-  put(g, out.weight, point.weight);
+  if (out.fields & kSurfaceDepth) put(g, out.t, point.t);
+  if (out.fields & kSurfaceWeight) put(g, out.weight, point.weight);
   if (out.fields & kSurfaceFootprint) {
     store_footprint(g, out.dpdx, point.dpdx);
     store_footprint(g, out.dpdy, point.dpdy);
@@ -189,7 +190,8 @@ namespace spanray {
 
 namespace {
 uint32_t surface_fields(const PlanFlags& plan) {
-  return (plan.ambient ? kSurfaceAmbient : 0u) | (plan.emission ? kSurfaceEmission : 0u) | (plan.bounces ? kSurfaceMirror | kSurfaceFootprint : 0u);
+  return (plan.ambient ? kSurfaceAmbient : 0u) | (plan.emission ? kSurfaceEmission : 0u) | (plan.bounces ? kSurfaceMirror | kSurfaceFootprint : 0u) |
+         (plan.depths ? kSurfaceDepth : 0u) | (plan.weights ? kSurfaceWeight : 0u);
 }
 }  // namespace
 

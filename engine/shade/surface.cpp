@@ -16,12 +16,12 @@ SurfaceBatch::SurfaceBatch() { resize(0); }
 void SurfaceBatch::resize(int n, uint32_t written) {
   static_assert(sizeof(float) == sizeof(uint32_t));
   struct Vector { float** field; uint32_t needs; };
-  const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, 0}, {diffuse, 0}, {specular, 0},
+  const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, kSurfaceWeight}, {diffuse, 0}, {specular, 0},
                             {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint}, {ambient, kSurfaceAmbient},
                             {emission, kSurfaceEmission}, {mirror, kSurfaceMirror}};
-  float** const scalars[] = {&position_error, &t, &shininess, &opacity};
+  float** const scalars[] = {&position_error, &shininess, &opacity};
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
-  constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){});
+  constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){}) + 1;
 
   count = n, fields = written;
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
@@ -34,6 +34,7 @@ void SurfaceBatch::resize(int n, uint32_t written) {
   for (const Vector& v : vectors)
     for (int k = 0; k < 3; ++k) v.field[k] = (v.needs & ~fields) == 0 ? take() : zeros;
   for (float** s : scalars) *s = take();
+  t = (fields & kSurfaceDepth) != 0 ? take() : zeros;
   // Words live in the block of floats; kernels move both with the same untyped vector loads and stores.
   for (uint32_t** w : words) *w = reinterpret_cast<uint32_t*>(take());
 }

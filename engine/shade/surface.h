@@ -7,10 +7,12 @@
 namespace spanray {
 
 // Fields that only some frames need.
-enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurfaceMirror = 4, kSurfaceFootprint = 8, kSurfaceAllFields = 15 };
+enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurfaceMirror = 4, kSurfaceFootprint = 8,
+                                kSurfaceDepth = 16, kSurfaceWeight = 32, kSurfaceAllFields = 63 };
 
 // Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
-// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy) are 0.
+// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy), and t and weight where nobody reads
+// them, are 0.
 struct SurfaceBatch {
   int count = 0;
   uint32_t fields = 0;         // SurfaceFields that are written

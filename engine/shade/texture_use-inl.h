@@ -85,9 +85,8 @@ HWY_INLINE I32 half_log2_256(F32 square) {
 // Contract: clamped to the levels there are and monotone in the footprint; infinite or NaN derivatives give the last level.
 HWY_INLINE I32 level_of_detail(const UvLanes& uv, F32 texels_u, F32 texels_v, I32 levels) {
   const auto length_square = [&](F32 du, F32 dv) HWY_ATTR {
-    const F32 limit = f32(0x1p50f);  // squares stay finite; clamp_ turns NaN into the far end
-    const F32 a = clamp_(du * texels_u, -limit, limit), b = clamp_(dv * texels_v, -limit, limit);
-    return a * a + b * b;
+    const F32 a = du * texels_u, b = dv * texels_v;
+    return min_(a * a + b * b, f32(0x1p100f));  // beyond every level; also for NaN
   };
   const F32 square = max_(length_square(uv.du_dx, uv.dv_dx), length_square(uv.du_dy, uv.dv_dy));
   return min_(max_(half_log2_256(square), i32(0)), shift_left<8>(levels - i32(1)));
