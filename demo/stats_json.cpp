@@ -26,6 +26,10 @@ Json stats_json(const Job& job, const Measurement& measured, uint64_t picture_ha
   const FrameStats& last = measured.frames.back();
   out["counts"] = Json::object();
   for (const auto& [name, value] : last.counts) out["counts"][name] = value;
+  for (const LaneOccupancy& l : last.lanes) {
+    const double share = l.computed > 0 ? static_cast<double>(l.used) / static_cast<double>(l.computed) : 0;
+    out["lane_occupancy"][l.kernel] = {{"computed", l.computed}, {"used", l.used}, {"share", share}};
+  }
   // Of all measured frames: how often trees followed moving parts by a refit, and how often they were built anew.
   uint64_t refits = 0, rebuilds = 0;
   for (const FrameStats& frame : measured.frames)

@@ -123,6 +123,33 @@ TEST_F(ProgramRender, StatisticsHaveEveryFieldOfTheDesign) {
   }
 }
 
+TEST_F(ProgramRender, StatisticsSayHowFullVectorsAre) {
+  const auto lanes_of = [&](const char* isa) {
+    return Json::parse(render({"--stats", "-", "--reflections", "none", "--isa", isa}).out, nullptr, false);
+  };
+  const Json scalar = lanes_of("scalar"), best = lanes_of("auto");
+  ASSERT_TRUE(scalar.is_object() && best.is_object());
+  for (const Json* stats : {&scalar, &best}) {
+    const Json& lanes = (*stats)["lane_occupancy"];
+    const auto used = [&](const char* kernel) { return lanes[kernel]["used"].get<uint64_t>(); };
+    for (const char* kernel : {"raster_walkers", "raster_packets", "planes", "surfaces"}) {
+      const uint64_t computed = lanes[kernel]["computed"].get<uint64_t>();
+      EXPECT_LE(used(kernel), computed) << kernel;
+      EXPECT_DOUBLE_EQ(computed > 0 ? static_cast<double>(used(kernel)) / static_cast<double>(computed) : 0, lanes[kernel]["share"].get<double>());
+    }
+    const Json& counts = (*stats)["counts"];
+    EXPECT_EQ(counts["surfaces_shaded"].get<uint64_t>() + counts["fragments_translucent"].get<uint64_t>(), used("surfaces"));
+    EXPECT_LE(used("raster_walkers"), counts["samples_passed"].get<uint64_t>());
+    EXPECT_GE(used("raster_walkers") + used("raster_packets"), counts["samples_passed"].get<uint64_t>());
+    EXPECT_GT(used("planes"), 0u);
+  }
+  // One lane is full, and what is of use does not depend on how many there are.
+  for (const char* kernel : {"planes", "surfaces"}) {
+    EXPECT_EQ(1, scalar["lane_occupancy"][kernel]["share"].get<double>()) << kernel;
+    EXPECT_EQ(scalar["lane_occupancy"][kernel]["used"], best["lane_occupancy"][kernel]["used"]) << kernel;
+  }
+}
+
 TEST_F(ProgramRender, StatisticsOnStandardOutputAreOneObject) {
   const Ran ran = render({"--stats", "-"});
   EXPECT_TRUE(Json::parse(ran.out, nullptr, false).is_object()) << ran.out;

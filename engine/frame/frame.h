@@ -92,10 +92,14 @@ struct FrameCounts {
   uint64_t pixels_covered = 0, surfaces_shaded = 0, quads_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
   uint64_t vertices_lit = 0;
+  // Walkers of columns and rows: the samples that passed. Packets of tiny triangles: the samples inside. Planes of primary hits: of triangles
+  // in a cell. Surfaces: those that hit.
+  LaneCounts walker_lanes, packet_lanes, plane_lanes, surface_lanes;
   uint64_t bvh_refits = 0, bvh_rebuilds = 0;  // trees that followed moving parts: of the second kind, those built anew
 
   void add(const TileHits& tile) {
     tile_triangles += tile.triangles, tile_triangles_hidden += tile.triangles_hidden, samples_passed += tile.passed;
+    walker_lanes.add(tile.walker_lanes), packet_lanes.add(tile.packet_lanes);
   }
 };
 

@@ -79,11 +79,18 @@ struct TileBins {
   }
 };
 
+// How full the vectors of a kernel were: lanes that it computed, and those of them that were of use.
+struct LaneCounts {
+  uint64_t computed = 0, used = 0;
+  void add(const LaneCounts& other) { computed += other.computed, used += other.used; }
+};
+
 // The visibility buffer of one tile: row-major kTileSize x kTileSize, also where the picture ends inside the tile.
 struct TileHits {
   alignas(64) uint32_t primitive[kTilePixels];  // kNoPrimitive: background
   alignas(64) float depth[kTilePixels];         // 0: background
   uint64_t triangles, triangles_hidden, passed;  // what it took: FrameCounts
+  LaneCounts walker_lanes, packet_lanes;
 };
 
 // Translucent candidates of a tile or a ray batch, unordered: shading orders them. `ray` as in HitBatch, `pixel` packed.

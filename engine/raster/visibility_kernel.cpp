@@ -25,6 +25,7 @@ void rasterize_tile(const Frame& frame, const TileBins& bins, int tile, TileHits
   std::fill_n(out.primitive, kTilePixels, kNoPrimitive);
   std::fill_n(out.depth, kTilePixels, 0.0f);
   out.triangles = out.triangles_hidden = out.passed = 0;
+  out.walker_lanes = out.packet_lanes = {};
   Window window(frame, tile, place, out);
   for (const BinChunk& chunk : bins.chunks) {
     const uint32_t end = chunk.opaque_start[static_cast<size_t>(tile) + 1];

@@ -19,7 +19,7 @@ struct PacketFragments {
   alignas(64) int32_t offset[16 * kPacketPixels + 16];  // into the tile
   alignas(64) float depth[16 * kPacketPixels + 16];
   alignas(64) int32_t primitive[16 * kPacketPixels + 16];
-  int count = 0;
+  int count = 0, steps = 0;  // steps: vectors of pixels that were looked at
 };
 
 // Lanes in `live` have at most kPacketPixels pixels in their boxes; the others are not drawn.
@@ -39,6 +39,7 @@ HWY_INLINE void walk_packet(const TileFrame& tile, const CornerLanes& c, const B
     }
     edges.step();
     left = left - one;
+    ++out.steps;
   }
 }
 

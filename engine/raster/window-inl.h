@@ -161,8 +161,9 @@ class Window {
     const I32 primitive = i32(setups.primitive[k]);
     float* const depths = out_.depth;  // no members: stores into the tile might change them
     uint32_t* const owners = out_.primitive;
-    int passed = 0;
+    int passed = 0, vectors = 0;
     walk_columns<kSmall>(tile_, setups, k, blocks, [&](int column, int row, Mask inside, F32 depth) HWY_ATTR {
+      ++vectors;
       const int offset = row * kTileSize + column;
       const F32 stored = F32::load(depths + offset);
       const I32 owner = I32::load(owners + offset);
@@ -176,6 +177,7 @@ class Window {
       select(visible, primitive, owner).store(owners + offset);
     });
     out_.passed += static_cast<uint64_t>(passed);
+    out_.walker_lanes.add({static_cast<uint64_t>(vectors) * kLanes, static_cast<uint64_t>(passed)});
   }
 
   void draw_tiny() {
@@ -184,9 +186,10 @@ class Window {
     for (int i = 0; i < tiny_.count; i += kLanes) {
       const Mask valid = first_lanes(tiny_.count - i);
       const I32 index = tiny_.load(i, valid);
-      fragments.count = 0;
+      fragments.count = fragments.steps = 0;
       walk_packet(tile_, load_corners(tile_, triangles_, index), BoxLanes::unpack(gather(box_, index)),
                   load_depth(tile_, triangles_, index), gather(&triangles_->primitive, index * i32(kTriangleWords)), valid, fragments);
+      out_.packet_lanes.add({static_cast<uint64_t>(fragments.steps) * kLanes, static_cast<uint64_t>(fragments.count)});
       drain(fragments);
     }
   }

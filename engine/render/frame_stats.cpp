@@ -32,6 +32,8 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
     counts.rays_shadow += w->counts.rays_shadow;
     counts.rays_bounce += w->counts.rays_bounce;
     counts.rays_translucent += w->counts.rays_translucent;
+    counts.walker_lanes.add(w->counts.walker_lanes), counts.packet_lanes.add(w->counts.packet_lanes);
+    counts.plane_lanes.add(w->counts.plane_lanes), counts.surface_lanes.add(w->counts.surface_lanes);
   }
 }
 
@@ -58,6 +60,10 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"vertices_lit", c.vertices_lit},
                   {"bvh_refits", c.bvh_refits},
                   {"bvh_rebuilds", c.bvh_rebuilds}};
+  stats.lanes = {{"raster_walkers", c.walker_lanes.computed, c.walker_lanes.used},
+                 {"raster_packets", c.packet_lanes.computed, c.packet_lanes.used},
+                 {"planes", c.plane_lanes.computed, c.plane_lanes.used},
+                 {"surfaces", c.surface_lanes.computed, c.surface_lanes.used}};
   if (c.triangles_invalid > 0)
     stats.warnings.push_back(counted(c.triangles_invalid, "triangle was", "triangles were") + " dropped: the projection is not finite");
 }

@@ -163,8 +163,13 @@ HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const Su
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
   PlaneBlock planes;
+  int misses = 0;
   for (int at = 0; at < hits.count; at += kLanes) {
-    if (primary && at % kPlaneHits == 0) set_up_block(frame, hits, at, planes);
+    if (primary && at % kPlaneHits == 0) {
+      set_up_block(frame, hits, at, planes);
+      const int vectors = (planes.planes + kLanes - 1) / kLanes;
+      out.plane_lanes.add({static_cast<uint64_t>(vectors * kLanes), static_cast<uint64_t>(planes.planes)});
+    }
     const HitLanes lanes = load_hits(hits, at);
     UvLanes uv;
     if (any(lanes.valid)) {
@@ -177,8 +182,10 @@ void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
       store_material(frame, out, at, lanes, uv);
     }
     const int left = hits.count - at;
-    if (any(and_not(lanes.valid, first_lanes(left < kLanes ? left : kLanes)))) clear_misses(out, at, lanes.valid);
+    const Mask missed = and_not(lanes.valid, first_lanes(left < kLanes ? left : kLanes));
+    if (any(missed)) clear_misses(out, at, lanes.valid), misses += count(missed);
   }
+  out.surface_lanes = {static_cast<uint64_t>((hits.count + kLanes - 1) / kLanes * kLanes), static_cast<uint64_t>(hits.count - misses)};
 }
 
 }  // namespace HWY_NAMESPACE

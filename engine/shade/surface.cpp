@@ -24,6 +24,7 @@ void SurfaceBatch::resize(int n, uint32_t written) {
   constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){}) + 1;
 
   count = n, fields = written;
+  plane_lanes = surface_lanes = {};
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
   const size_t stride = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
   storage_.resize(stride * (kFields + 1));

@@ -16,6 +16,7 @@ enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurf
 struct SurfaceBatch {
   int count = 0;
   uint32_t fields = 0;         // SurfaceFields that are written
+  LaneCounts plane_lanes, surface_lanes;  // what it took: FrameCounts
   float* position[3];          // on the original triangle, moved into it
   float* position_error;       // bound on the distance of position from the triangle, each coordinate, world units (resolve-inl.h, plane-inl.h)
   float* geometric_normal[3];  // unit, toward the ray's origin

@@ -16,9 +16,20 @@ struct StageTimes {
          encode = 0, frame = 0, bvh_build = 0;
 };
 
+// How full the vectors of a kernel were: lanes computed in the frame, and those of use. Depends on the instruction set.
+//   raster_walkers  triangles wider than a few pixels: samples that passed the depth test
+//   raster_packets  tiny triangles, one a lane: samples inside
+//   planes          what a triangle sets up for the pixels that see it in a cell of 16 x 16
+//   surfaces        hits of every kind that are shaded
+struct LaneOccupancy {
+  std::string kernel;
+  uint64_t computed = 0, used = 0;
+};
+
 struct FrameStats {
   StageTimes ms;
   std::vector<std::pair<std::string, uint64_t>> counts;  // name, value
+  std::vector<LaneOccupancy> lanes;
   uint64_t memory_bytes = 0;                             // of the renderer's own buffers, scene not included
   std::string isa;
   int threads = 0;
