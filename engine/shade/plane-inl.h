@@ -178,7 +178,7 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
 // Finds the planes of a block by triangle and cell.
 class PlaneFinder {
  public:
-  explicit PlaneFinder(PlaneBlock& block) : block_(block) { std::memset(slot_, 0xff, sizeof slot_); }
+  PlaneFinder(PlaneBlock& block, const Triangle* triangles) : block_(block), triangles_(triangles) { std::memset(slot_, 0xff, sizeof slot_); }
   uint32_t find(uint32_t primitive, uint32_t cell) {
     for (uint32_t i = (primitive ^ cell * 0x85ebca6bu) * 0x9e3779b9u >> 16;; ++i) {  // Fibonacci hashing: neighbouring ids spread
       int16_t& plane = slot_[i % kSlots];
@@ -189,11 +189,13 @@ class PlaneFinder {
 
  private:
   int16_t add(uint32_t primitive, uint32_t cell) {
+    __builtin_prefetch(triangles_ + primitive);
     block_.primitive[block_.planes] = primitive, block_.cell[block_.planes] = cell;
     return static_cast<int16_t>(block_.planes++);
   }
   static constexpr uint32_t kSlots = 2 * kPlaneHits;  // at most half full
   PlaneBlock& block_;
+  const Triangle* const triangles_;
   int16_t slot_[kSlots];
 };
 
@@ -201,7 +203,7 @@ class PlaneFinder {
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   block.planes = 0;
-  PlaneFinder finder(block);
+  PlaneFinder finder(block, frame.scene->triangles.data());
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
     const I32 primitive = select(listed == i32(kNoPrimitive), i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
@@ -218,6 +220,8 @@ void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& 
   }
   for (int i = 0; i < kPlaneLine; ++i)  // lanes past the last plane follow it
     block.primitive[block.planes + i] = block.primitive[block.planes - 1], block.cell[block.planes + i] = block.cell[block.planes - 1];
+  for (int i = 0; i < block.planes; ++i)
+    for (const uint32_t v : frame.scene->triangles[block.primitive[i]].vertex) __builtin_prefetch(&frame.scene->vertices[v]);
   for (int i = 0; i < block.planes; i += kLanes) set_up_planes(frame, block, i);
 }
 
