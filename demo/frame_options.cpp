@@ -151,6 +151,7 @@ void FrameOptions::add_without_techniques(CLI::App& command) {
   };
   command.add_option_function<std::string>("--time", time, "Seconds: where moving parts stand")->type_name("S");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");
+  add_word(command, "--tree", &Settings::tree, "Trees for rays: built fast, or slowly and traced faster; changes no pixel");
   add_word(command, "--isa", &Settings::isa, "Instruction set; changes no pixel");
   command.add_option("--settings", settings_path_, "A file with a [technique], as `tune` writes it; "
                      "it goes over the scene's, other options go over it")

@@ -30,6 +30,7 @@ TEST(SettingsText, EveryValueHasOneWordAndTheWordGivesItBack) {
   check_round_trip<Normals>(2);
   check_round_trip<Powers>(2);
   check_round_trip<ShadingRate>(2);
+  check_round_trip<TreeQuality>(2);
 }
 
 TEST(SettingsText, WordsOfTheCommandLine) {

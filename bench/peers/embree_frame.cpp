@@ -40,7 +40,7 @@ struct EmbreeFrame::Worker {
 EmbreeFrame::EmbreeFrame(const Scene& scene, const Camera& camera, const Settings& settings, Parallel& parallel)
     : plan_(make_plan(scene.data(), find_scene_use(scene.data()), settings)), parallel_(parallel) {
   frame_ = make_frame(scene.data(), camera, settings, plan_, parallel);
-  bvh_ = build_bvh(scene.data(), plan_.material_flags.data(), 0, 0, parallel);
+  bvh_ = build_bvh(scene.data(), plan_.material_flags.data(), 0, 0, parallel, settings.tree);
   for (int i = 0; i < parallel.threads(); ++i) workers_.push_back(std::make_unique<Worker>());
 }
 

@@ -117,7 +117,7 @@ TracedScene::TracedScene(const Scene& traced, const Camera& camera, const Settin
   std::vector<double> ms;
   for (int i = 0; i < builds; ++i) {
     const Stopwatch watch;
-    bvh = build_bvh(data, flags.data(), 0, 0, parallel);
+    bvh = build_bvh(data, flags.data(), 0, 0, parallel, settings.tree);
     ms.push_back(watch.wall());
   }
   build_ms = median(ms);

@@ -3,12 +3,13 @@
 //           "Getting Rid of Packets" (opening the child of largest area).
 // Input:    triangles in canonical vertex order, finite.
 // Contract: the bytes of the tree depend on the triangles only, never on threads; depth <= kBvhMaxDepth.
+// Settings::tree "high" goes another way: ray/bvh_high.h.
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "ray/bvh_data.h"
-#include "ray/bvh_split.h"
+#include "ray/bvh_high.h"
+#include "ray/bvh_parts.h"
 
 namespace spanray {
 namespace {
@@ -33,24 +34,6 @@ struct Tree {
   int depth = 0;
 };
 
-Box triangle_box(const SceneData& scene, const Triangle& t) {
-  Box box = Box::empty();
-  for (const uint32_t v : t.vertex) {
-    const float* p = scene.vertices[v].position;
-    box.add(Box::of(bvh::F4{p[0], p[1], p[2], 0}));
-  }
-  return box;
-}
-
-BvhNode empty_node() {
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  BvhNode node;
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < kBvhWidth; ++i) node.bounds[k][i] = inf, node.bounds[k + 3][i] = -inf;
-  std::fill(node.child, node.child + kBvhWidth, 0u);
-  return node;
-}
-
 class NodeBuilder {
  public:
   // With `pending`, ranges of at most kSubtreeSize are left to later tasks.
@@ -59,15 +42,12 @@ class NodeBuilder {
 
   uint32_t build(const Range& range, int depth) {
     const uint32_t index = static_cast<uint32_t>(tree.nodes.size());
-    tree.nodes.push_back(empty_node());
+    tree.nodes.push_back(bvh::empty_node());
     tree.depth = std::max(tree.depth, depth);
     Range part[kBvhWidth];
     const int parts = open(range, depth, part);
     for (int i = 0; i < parts; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        tree.nodes[index].bounds[k][i] = part[i].box.lo[k];
-        tree.nodes[index].bounds[k + 3][i] = part[i].box.hi[k];
-      }
+      bvh::set_box(tree.nodes[index], i, part[i].box);
       if (part[i].leaf) {
         tree.nodes[index].child[i] = leaf_child(add_block(part[i]), part[i].count());
       } else if (pending_ != nullptr && part[i].count() <= bvh::kSubtreeSize) {
@@ -110,18 +90,9 @@ class NodeBuilder {
   }
 
   uint32_t add_block(const Range& range) {
-    TriangleBlock block{};
-    // By id, so that lanes do not depend on how the range was shuffled.
-    uint32_t ids[kBvhWidth];
-    for (uint32_t i = 0; i < range.count(); ++i) ids[i] = refs_[range.begin + i].primitive();
-    std::sort(ids, ids + range.count());
-    for (uint32_t i = 0; i < range.count(); ++i) {
-      const Triangle& t = scene_.triangles[ids[i]];
-      block.primitive[i] = ids[i];
-      for (int v = 0; v < 3; ++v)
-        for (int k = 0; k < 3; ++k) block.vertex[v][k][i] = scene_.vertices[t.vertex[v]].position[k];
-    }
-    tree.blocks.push_back(block);
+    bvh::LeafIds ids;
+    for (uint32_t i = 0; i < range.count(); ++i) ids.add(refs_[range.begin + i].primitive());
+    tree.blocks.push_back(bvh::make_block(scene_, ids));
     return static_cast<uint32_t>(tree.blocks.size() - 1);
   }
 
@@ -141,7 +112,7 @@ AlignedBuffer<Ref> collect_refs(const SceneData& scene, const uint32_t* material
   parallel.for_each((n + kChunk - 1) / kChunk, [&](size_t c, int) {
     for (size_t i = c * kChunk; i < std::min(n, (c + 1) * kChunk); ++i) {
       const uint32_t primitive = refs[i].primitive();
-      refs[i].box = triangle_box(scene, scene.triangles[primitive]);
+      refs[i].box = bvh::triangle_box(scene, scene.triangles[primitive]);
       refs[i].set_primitive(primitive);
     }
   });
@@ -177,30 +148,13 @@ void assemble(const Tree& top, const std::vector<PendingSubtree>& pending, const
   for (size_t s = 0; s < pending.size(); ++s) data.nodes[pending[s].node].child[pending[s].slot] = node_base[s];
 }
 
-}  // namespace
-
-Bvh::Bvh() : data_(std::make_unique<Data>()) {}
-Bvh::Bvh(Bvh&&) noexcept = default;
-Bvh& Bvh::operator=(Bvh&&) noexcept = default;
-Bvh::~Bvh() = default;
-size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
-size_t Bvh::primitive_count() const { return data_->primitives; }
-
-Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
-  Bvh bvh;
-  AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
+void build_fast(const SceneData& scene, AlignedBuffer<Ref>& refs, Parallel& parallel, Bvh::Data& data) {
   const uint32_t n = static_cast<uint32_t>(refs.size());
-  Bvh::Data& data = *bvh.data_;
-  data.primitives = n;
-  if (n == 0) return bvh;
-
   AlignedBuffer<Ref> scratch(n);
   const Splitter splitter(refs.data(), scratch.data(), &parallel);
   std::vector<PendingSubtree> pending;
   NodeBuilder top(scene, refs.data(), splitter, &pending);
-  const Range root = splitter.analyse(0, n, false);
-  for (int k = 0; k < 3; ++k) data.bounds_min[k] = root.box.lo[k], data.bounds_max[k] = root.box.hi[k];
-  top.build(root, 1);
+  top.build(splitter.analyse(0, n, false), 1);
 
   std::vector<Tree> subtrees(pending.size());
   parallel.for_each(pending.size(), [&](size_t s, int) {
@@ -210,6 +164,40 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
     subtrees[s] = std::move(builder.tree);
   });
   assemble(top.tree, pending, subtrees, parallel, data);
+}
+
+template <class T> void copy_to(const std::vector<T>& from, AlignedBuffer<T>& to) {
+  to.reserve(from.size()), to.resize(from.size());
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+void take(const bvh::WideTree& wide, Bvh::Data& data) {
+  copy_to(wide.nodes, data.nodes), copy_to(wide.blocks, data.blocks);
+  data.depth = wide.depth;
+}
+
+}  // namespace
+
+Bvh::Bvh() : data_(std::make_unique<Data>()) {}
+Bvh::Bvh(Bvh&&) noexcept = default;
+Bvh& Bvh::operator=(Bvh&&) noexcept = default;
+Bvh::~Bvh() = default;
+size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
+size_t Bvh::primitive_count() const { return data_->primitives; }
+
+Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel, TreeQuality quality) {
+  Bvh bvh;
+  AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
+  Bvh::Data& data = *bvh.data_;
+  data.primitives = refs.size();
+  if (refs.empty()) return bvh;
+  if (bvh::WideTree wide; quality == TreeQuality::kHigh && bvh::build_high(scene, refs, parallel, wide)) take(wide, data);
+  else build_fast(scene, refs, parallel, data);
+  Box all = Box::empty();
+  const BvhNode& root = data.nodes[0];
+  for (int c = 0; c < kBvhWidth; ++c)
+    all.add({bvh::F4{root.bounds[0][c], root.bounds[1][c], root.bounds[2][c], 0}, bvh::F4{root.bounds[3][c], root.bounds[4][c], root.bounds[5][c], 0}});
+  for (int k = 0; k < 3; ++k) data.bounds_min[k] = all.lo[k], data.bounds_max[k] = all.hi[k];
   return bvh;
 }
 

@@ -4,17 +4,17 @@
 
 namespace spanray {
 
-RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, const std::vector<MovingRun>& moving, uint64_t poses,
-                                Parallel& parallel) {
-  if (flags_ != plan.material_flags) {
+RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQuality quality, const std::vector<MovingRun>& moving,
+                                uint64_t poses, Parallel& parallel) {
+  if (flags_ != plan.material_flags || quality_ != quality) {
     clear();
-    flags_ = plan.material_flags;
+    flags_ = plan.material_flags, quality_ = quality;
   }
   Work work;
   const auto build = [&](uint32_t value, Tree& tree) {
     Tree built;  // all of it or nothing, should memory run out
     built.build_ms = timed_ms([&] {
-      built.bvh = std::make_unique<Bvh>(build_bvh(scene, flags_.data(), kMaterialTranslucent, value, parallel));
+      built.bvh = std::make_unique<Bvh>(build_bvh(scene, flags_.data(), kMaterialTranslucent, value, parallel, quality_));
       if (!moving.empty()) built.refit = std::make_unique<BvhRefit>(*built.bvh, moving);
     });
     if (built.refit) built.built_cost = built.refit->cost();

@@ -21,7 +21,9 @@ class RayTrees {
   void clear() { opaque_ = {}, translucent_ = {}; }
   // Builds what the plan asks for and is not there yet, and lets what is there follow the scene. moving: of the scene at rest; poses: how
   // often the scene was posed so far.
-  Work update(const SceneData& scene, const Plan& plan, const std::vector<MovingRun>& moving, uint64_t poses, Parallel& parallel);
+  // Builds all of them anew if `quality` is another than before.
+  Work update(const SceneData& scene, const Plan& plan, TreeQuality quality, const std::vector<MovingRun>& moving, uint64_t poses,
+              Parallel& parallel);
 
   const Bvh* opaque() const { return opaque_.bvh.get(); }
   const Bvh* translucent() const { return translucent_.bvh.get(); }
@@ -39,6 +41,7 @@ class RayTrees {
     uint64_t poses = 0;               // where its triangles stand
   };
   std::vector<uint32_t> flags_;       // of materials, as the trees were built
+  TreeQuality quality_ = TreeQuality::kFast;
   Tree opaque_, translucent_;
 };
 

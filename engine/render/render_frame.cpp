@@ -83,7 +83,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   Plan plan = make_plan(scene.data(), use, settings);
   leave_out_unread(request, plan.flags);
   if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
-  const RayTrees::Work followed = trees.update(standing(), plan, scene.data().moving_triangles, poses, *parallel);
+  const RayTrees::Work followed = trees.update(standing(), plan, settings.tree, scene.data().moving_triangles, poses, *parallel);
 
   const Frame frame = make_frame(standing(), camera, settings, plan, *parallel);
   resize_output(settings, request, out);

@@ -25,6 +25,7 @@ constexpr EnumName<Normals> kNormalsNames[] = {{Normals::kInterpolated, "interpo
                                                {Normals::kRenormalized, "renormalized"}};
 constexpr EnumName<Powers> kPowersNames[] = {{Powers::kFast, "fast"}, {Powers::kExact, "exact"}};
 constexpr EnumName<ShadingRate> kShadingRateNames[] = {{ShadingRate::k2x2, "2x2"}, {ShadingRate::k1x1, "1x1"}};
+constexpr EnumName<TreeQuality> kTreeQualityNames[] = {{TreeQuality::kFast, "fast"}, {TreeQuality::kHigh, "high"}};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -92,6 +93,10 @@ std::span<const EnumName<Powers>> enum_names<Powers>() {
 template <>
 std::span<const EnumName<ShadingRate>> enum_names<ShadingRate>() {
   return kShadingRateNames;
+}
+template <>
+std::span<const EnumName<TreeQuality>> enum_names<TreeQuality>() {
+  return kTreeQualityNames;
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {

@@ -24,6 +24,8 @@ enum class Powers { kFast, kExact };
 // Pixels shaded at once. k2x2: an aligned square of 2 x 2 pixels is shaded once, with its shadow and mirror rays, where all
 // four see one surface (render/coarse_quads.h); edges, layers of translucent surfaces, ids and depth keep every pixel.
 enum class ShadingRate { k2x2, k1x1 };
+// The tree that rays go down: built fast, or built to be traced fast (ray/bvh_high.h). No picture depends on it.
+enum class TreeQuality { kFast, kHigh };
 
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
 constexpr bool sample_count_ok(int count) {
@@ -55,6 +57,7 @@ struct Settings {
   double time = 0;  // seconds: where moving parts stand (docs of scene files: [[moving]]); nothing else depends on it
   bool textures = true;
   bool bump = true;
+  TreeQuality tree = TreeQuality::kFast;
   int threads = 0;  // 0: one per processor
   Isa isa = Isa::kAuto;
 };
