@@ -2,6 +2,8 @@
 // fast one.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "ray/bvh_refit.h"
 #include "scene/pose.h"
 #include "support/moving_scene.h"
@@ -14,10 +16,11 @@ namespace {
 
 const std::vector<uint32_t> kNoFlags(16, 0);
 
-Bvh build(const SceneData& scene, TreeQuality quality, int threads = 2) {
+Bvh build(const SceneData& scene, TreeQuality quality, int threads = 2, bool whole = false) {
   Parallel parallel(threads);
-  return build_bvh(scene, kNoFlags.data(), 0, 0, parallel, quality);
+  return build_bvh(scene, kNoFlags.data(), 0, 0, parallel, quality, whole);
 }
+bool in_parts(const Bvh& bvh) { return bvh.data().references > bvh.primitive_count(); }
 double cost(const Bvh& bvh) { return BvhRefit(bvh, {}).cost(); }
 
 // Small triangles among large ones, and bars across everything.
@@ -35,19 +38,27 @@ std::vector<SoupTriangle> mixed_soup(TestRandom& random, int small) {
 TEST(RayHigh, SameTreeForAnyNumberOfThreads) {
   TestRandom random(41);
   const SceneData scene = make_test_scene(mixed_soup(random, 40000));
-  const uint64_t first = tree_hash(build(scene, TreeQuality::kHigh, 1));
-  EXPECT_NE(first, tree_hash(build(scene, TreeQuality::kFast, 1)));
-  for (const int threads : {2, 7}) EXPECT_EQ(tree_hash(build(scene, TreeQuality::kHigh, threads)), first) << threads << " threads";
+  for (const bool whole : {false, true}) {
+    const Bvh one = build(scene, TreeQuality::kHigh, 1, whole);
+    EXPECT_NE(in_parts(one), whole);
+    EXPECT_NE(tree_hash(one), tree_hash(build(scene, TreeQuality::kFast, 1)));
+    for (const int threads : {2, 7})
+      EXPECT_EQ(tree_hash(build(scene, TreeQuality::kHigh, threads, whole)), tree_hash(one)) << threads << " threads";
+  }
 }
 
 TEST(RayHigh, CompleteAndCheaper) {
   TestRandom random(42);
   for (const int small : {1000, 30000}) {
     const SceneData scene = make_test_scene(mixed_soup(random, small));
-    const Bvh fast = build(scene, TreeQuality::kFast), high = build(scene, TreeQuality::kHigh);
-    check_complete(scene, high);
-    EXPECT_LT(cost(high), 0.9 * cost(fast));
-    EXPECT_LT(high.memory_bytes(), 1.1 * static_cast<double>(fast.memory_bytes()));
+    const Bvh fast = build(scene, TreeQuality::kFast), whole = build(scene, TreeQuality::kHigh, 2, true), parts = build(scene, TreeQuality::kHigh);
+    check_complete(scene, whole);
+    check_parts(scene, parts);
+    EXPECT_TRUE(in_parts(parts));
+    EXPECT_LE(parts.data().references, 1.2 * static_cast<double>(scene.triangles.size()));
+    EXPECT_LT(cost(whole), 0.9 * cost(fast));
+    EXPECT_LT(cost(parts), 0.96 * cost(whole));
+    EXPECT_LT(whole.memory_bytes(), 1.1 * static_cast<double>(fast.memory_bytes()));
   }
 }
 
@@ -58,7 +69,7 @@ TEST(RayHigh, FewTriangles) {
     add_random_triangles(soup, random, n, 0.5);
     auto t = frame_of(soup);
     const Bvh bvh = build(t->scene, TreeQuality::kHigh);
-    check_complete(t->scene, bvh);
+    check_parts(t->scene, bvh);
     const RayBatch rays = random_rays(random, 500);
     expect_equal(trace(*t, bvh, rays, supported_isas().back()), brute_force(*t, rays), rays, "few");
   }
@@ -85,7 +96,8 @@ TEST(RayHigh, DegenerateInput) {
     SCOPED_TRACE(i);
     const SceneData scene = make_test_scene(soups[i]);
     const Bvh high = build(scene, TreeQuality::kHigh);
-    check_complete(scene, high);
+    check_parts(scene, high);
+    check_complete(scene, build(scene, TreeQuality::kHigh, 2, true));
     if (i > 3) {
       EXPECT_EQ(tree_hash(high), tree_hash(build(scene, TreeQuality::kFast))) << "areas beyond what float holds";
     }
@@ -96,6 +108,7 @@ TEST(RayHigh, HitsEqualThoseOfTheFastTree) {
   TestRandom random(45);
   auto t = frame_of(mixed_soup(random, 20000));
   const Bvh fast = build(t->scene, TreeQuality::kFast), high = build(t->scene, TreeQuality::kHigh);
+  ASSERT_TRUE(in_parts(high));
   const std::vector<Isa> isas = supported_isas();
   int hits = 0;
   for (int batch = 0; batch < 12; ++batch) {
@@ -106,6 +119,22 @@ TEST(RayHigh, HitsEqualThoseOfTheFastTree) {
     hits += static_cast<int>(std::count(want.any.begin(), want.any.end(), true));
   }
   EXPECT_GT(hits, 30000);
+}
+
+// Bars across a grid, their corners on it, and rays on it: edges, planes and corners that rays meet exactly.
+std::vector<SoupTriangle> bars_on_grid(TestRandom& random) {
+  std::vector<SoupTriangle> soup;
+  const auto place = [&] { return glm::dvec3(random.between(-6, 6), random.between(-6, 6), random.between(-6, 6)) * 0.5; };
+  for (int i = 0; i < 60; ++i) {
+    const glm::dvec3 a = place(), b = place(), c = b + glm::dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) * 0.25;
+    soup.push_back(soup_triangle(a, b, c));
+    soup.push_back(soup_triangle(a, c, a + (c - b)));
+  }
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 a = place() + glm::dvec3(0.125);
+    soup.push_back(soup_triangle(a, a + glm::dvec3(0.125, 0, 0), a + glm::dvec3(0, 0.125, 0)));
+  }
+  return soup;
 }
 
 // Awkward rays against brute force: along edges and slabs, among coincident triangles, from far away.
@@ -119,6 +148,9 @@ TEST(RayHigh, AwkwardRaysEqualBruteForce) {
     for (const Isa isa : supported_isas()) expect_equal(trace(*t, bvh, rays, isa), want, rays, what);
   };
   check(cubes_on_grid(random), rays_on_grid(random, 6000), "grid");
+  const std::vector<SoupTriangle> bars = bars_on_grid(random);
+  EXPECT_TRUE(in_parts(build(make_test_scene(bars), TreeQuality::kHigh)));
+  check(bars, rays_on_grid(random, 20000), "bars");
   std::vector<SoupTriangle> sphere, base;
   add_mesh(sphere, make_sphere(2), 1, glm::dvec3(0));
   check(sphere, rays_from_far(random, 1500), "far");
@@ -126,12 +158,39 @@ TEST(RayHigh, AwkwardRaysEqualBruteForce) {
   check(coincident_soup(base, 500, random).triangles, random_rays(random, 300), "coincident");
 }
 
+// A triangle in several leaves is one layer.
+TEST(RayHigh, EveryLayerOnce) {
+  TestRandom random(47);
+  auto t = frame_of(mixed_soup(random, 4000));
+  const Bvh fast = build(t->scene, TreeQuality::kFast), high = build(t->scene, TreeQuality::kHigh);
+  ASSERT_TRUE(in_parts(high));
+  const RayBatch rays = random_rays(random, 20000);
+  for (const HitsOnEdges edges : {HitsOnEdges::kOfAll, HitsOnEdges::kOfOne})
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      const auto layers = [&](const Bvh& bvh) {
+        FragmentList list;
+        list.pixel.push_back(1), list.ray.push_back(2), list.primitive.push_back(3);  // appended to
+        trace_all(t->frame, bvh, rays, edges, list);
+        std::vector<std::array<uint32_t, 3>> all;
+        for (size_t i = 0; i < list.ray.size(); ++i) all.push_back({list.ray[i], list.primitive[i], list.pixel[i]});
+        EXPECT_EQ(all[0], (std::array<uint32_t, 3>{2, 3, 1}));
+        std::sort(all.begin() + 1, all.end());
+        return all;
+      };
+      const auto want = layers(fast), got = layers(high);
+      EXPECT_GT(want.size(), 10000u);
+      EXPECT_TRUE(got == want) << isa_name(isa);
+      EXPECT_TRUE(std::adjacent_find(got.begin() + 1, got.end()) == got.end());
+    }
+}
+
 TEST(RayHigh, FollowsMotionAndEqualsATreeBuiltAnew) {
   const TempFolder folder;
   const Loaded loaded = must_load(write_moving_scene(folder, 1500));
   Parallel parallel(2);
   PosedScene posed(loaded.scene());
-  Bvh bvh = build(loaded.scene(), TreeQuality::kHigh);
+  Bvh bvh = build(loaded.scene(), TreeQuality::kHigh, 2, true);
   const uint64_t built = tree_hash(bvh);
   BvhRefit refit(bvh, loaded.scene().moving_triangles);
   refit.refit(loaded.scene(), bvh, parallel);

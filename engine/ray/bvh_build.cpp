@@ -173,7 +173,7 @@ template <class T> void copy_to(const std::vector<T>& from, AlignedBuffer<T>& to
 
 void take(const bvh::WideTree& wide, Bvh::Data& data) {
   copy_to(wide.nodes, data.nodes), copy_to(wide.blocks, data.blocks);
-  data.depth = wide.depth;
+  data.depth = wide.depth, data.references = wide.references;
 }
 
 }  // namespace
@@ -185,13 +185,14 @@ Bvh::~Bvh() = default;
 size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
 size_t Bvh::primitive_count() const { return data_->primitives; }
 
-Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel, TreeQuality quality) {
+Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel, TreeQuality quality,
+              bool follows_motion) {
   Bvh bvh;
   AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
   Bvh::Data& data = *bvh.data_;
-  data.primitives = refs.size();
+  data.primitives = data.references = refs.size();
   if (refs.empty()) return bvh;
-  if (bvh::WideTree wide; quality == TreeQuality::kHigh && bvh::build_high(scene, refs, parallel, wide)) take(wide, data);
+  if (bvh::WideTree wide; quality == TreeQuality::kHigh && bvh::build_high(scene, follows_motion, refs, parallel, wide)) take(wide, data);
   else build_fast(scene, refs, parallel, data);
   Box all = Box::empty();
   const BvhNode& root = data.nodes[0];

@@ -33,6 +33,7 @@ struct Bvh::Data {
   AlignedBuffer<TriangleBlock> blocks;
   float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};
   size_t primitives = 0;
+  size_t references = 0;  // triangles in leaves: more than `primitives` where parts of one stand in several
   int depth = 0;  // nodes on the longest path
 };
 

@@ -12,7 +12,7 @@ namespace spanray {
 //         build anew when the tree has become too costly.
 class BvhRefit {
  public:
-  // bvh: as built; moving: runs of moving triangles.
+  // bvh: as built, with follows_motion; moving: runs of moving triangles.
   BvhRefit(const Bvh& bvh, const std::vector<MovingRun>& moving);
 
   // Takes the vertices of moving triangles from `scene` and makes all boxes around them anew, smallest possible. The bytes do not

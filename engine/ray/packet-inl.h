@@ -72,6 +72,14 @@ struct PacketTask {
     return leaf_lanes(child) & beam_triangles(block, beam) & ~words_equal(block.primitive, p.all_from);
   }
 
+  // hit_triangle() of some rays with triangle j of a block.
+  HWY_INLINE ExactLanes exact(const TriangleBlock& block, int j, uint32_t rays) {
+    ExactLanes lanes = exact_lanes(p, block, j);
+    lanes.hit &= rays;
+    if ((lanes.hit & lanes.edge_on) != 0) exact_edge_on(block, j, lanes);
+    return lanes;
+  }
+
   // Of some rays, those whose hit the surface takes.
   HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) {
     if (batch.takes_all(primitive)) return rays;
@@ -85,6 +93,18 @@ struct PacketTask {
   }
 
  private:
+  HWY_NOINLINE void exact_edge_on(const TriangleBlock& block, int j, ExactLanes& out) {
+    alignas(64) double t[kLanes];
+    out.t.store(t);
+    for (uint32_t rest = out.hit & out.edge_on; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      LaneRay ray;
+      take_lane(lanes(), i, ray);
+      if (!hit_triangle(ray.exact, triangle_of(block, j), t[i])) out.hit &= ~(1u << i);
+    }
+    out.t = F64::load(t);
+  }
+
   PacketLanes lanes_{};
   bool lanes_stored_ = false;
 };
@@ -137,8 +157,8 @@ struct AnyPacket : PacketTask {
       const uint32_t sure = hits.sure & maybe;
       if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure, maybe &= ~sure;
       if (maybe == 0) continue;
-      const ExactLanes exact = exact_lanes(p, block, j);
-      uint32_t found = exact.hit & maybe;
+      const ExactLanes exact = this->exact(block, j, maybe);
+      uint32_t found = exact.hit;
       if (found != 0) found &= ~bits_less(p.t_max, exact.t);
       if (found != 0) found = ask(found, primitive);
       alive &= ~found;
@@ -259,8 +279,8 @@ struct ClosestPacket : PacketTask {
           known &= ~counts;
         }
       if (maybe == 0) continue;
-      const ExactLanes exact = exact_lanes(p, block, j);
-      if ((exact.hit & maybe) != 0) take(exact.hit & maybe, exact.t, primitive, at);
+      const ExactLanes exact = this->exact(block, j, maybe);
+      if (exact.hit != 0) take(exact.hit, exact.t, primitive, at);
     }
   }
 

@@ -69,8 +69,9 @@ HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& bloc
 HWY_INLINE F64 fmin_(F64 a, F64 b) { return select_lt(b, a, b, a); }  // std::min, std::max: a unless b is less, greater
 HWY_INLINE F64 fmax_(F64 a, F64 b) { return select_lt(a, b, b, a); }
 
-// hit_triangle() of all lanes with one triangle: its operations in its order.
-struct ExactLanes { F64 t; uint32_t hit; };
+// hit_triangle() of all lanes with one triangle: its operations in its order. Lanes that see it edge-on are left to hit_triangle() itself:
+// their t is not set.
+struct ExactLanes { F64 t; uint32_t hit, edge_on; };
 HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block, int triangle) {
   F64 x[3], y[3], z[3];
   const F64 zero = f64(0.0);
@@ -87,8 +88,12 @@ HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block
   const F64 det = u + v + w;
   const F64 least = fmin_(fmin_(u, v), w), greatest = fmax_(fmax_(u, v), w);  // finite: coordinates are floats
   ExactLanes out;
+  out.edge_on = 0;
   out.hit = ~(bits_less(least, zero) & bits_less(zero, greatest)) & (bits_less(det, zero) | bits_less(zero, det));
   if (out.hit == 0) return out;
+  F64 s = zero;
+  for (int i = 0; i < 3; ++i) s = fmax_(s, fmax_(abs_(x[i]), abs_(y[i])));
+  out.edge_on = out.hit & ~bits_less(f64(kEdgeOn) * s * s, abs_(det));
 
   const F64 z_min = fmin_(fmin_(z[0], z[1]), z[2]), z_max = fmax_(fmax_(z[0], z[1]), z[2]);
   const F64 z_raw = (u * z[0] + v * z[1] + w * z[2]) / det;
@@ -97,8 +102,6 @@ HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block
   const uint32_t front = (forward & bits_less(zero, z_min)) | (~forward & bits_less(z_max, zero));
   if ((out.hit & ~front) != 0) {
     constexpr double e = 0x1p-53;
-    F64 s = zero;
-    for (int i = 0; i < 3; ++i) s = fmax_(s, fmax_(abs_(x[i]), abs_(y[i])));
     const F64 reach = fmax_(abs_(z_min), abs_(z_max)), m = s + reach;
     const F64 edge_error = f64(40 * e) * m * (s + f64(8 * e) * m);
     const F64 size = abs_(det), error = f64(3) * edge_error * reach + f64(8 * e) * size * reach;
@@ -114,8 +117,8 @@ HWY_INLINE ExactLanes exact_lanes(const RayPacket& p, const TriangleBlock& block
     near = select(n > near, n, near);
     far = select(f < far, f, far);
   }
-  const F64 t = z_hit / p.direction_z, near64 = to_f64(near), far64 = to_f64(far);
-  out.t = select_lt(t, near64, near64, select_lt(far64, t, far64, t));
+  const F64 t = z_hit / p.direction_z, near64 = to_f64(near), largest = f64(static_cast<double>(kLargestT));
+  out.t = select_lt(t, near64, near64, select_lt(largest, t, largest, t));
   out.hit &= to_bits(near <= far);
   return out;
 }

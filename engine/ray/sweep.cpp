@@ -126,6 +126,8 @@ std::vector<SphereHit> touch_sphere(const Bvh& bvh, const glm::dvec3& center, do
   std::sort(hits.begin(), hits.end(), [](const SphereHit& a, const SphereHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.primitive < b.primitive;
   });
+  // A triangle that stands in several leaves was found in each.
+  hits.erase(std::unique(hits.begin(), hits.end(), [](const SphereHit& a, const SphereHit& b) { return a.primitive == b.primitive; }), hits.end());
   return hits;
 }
 

@@ -85,6 +85,14 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
   stream.trace(out);
 }
 
+// Of the hits from `first` on, all of one ray: those of a triangle that stands in several leaves, but one.
+HWY_NOINLINE void drop_repeated(size_t first, FragmentList& out) {
+  uint32_t* const begin = out.primitive.begin() + first;
+  std::sort(begin, out.primitive.end());
+  const size_t n = static_cast<size_t>(std::unique(begin, out.primitive.end()) - out.primitive.begin());
+  out.primitive.resize(n), out.pixel.resize(n), out.ray.resize(n);  // all pixels are the same, and all rays
+}
+
 // Hits of one ray stay together, in no order: rays go alone.
 void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {
   if (data.nodes.empty()) return;
@@ -97,7 +105,9 @@ void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
       LaneRay ray;
       take_lane(packet.lanes(), i, ray);
       AllVisitor visitor{batch, ray.exact, first + i, packet.lanes().limit[i], edges == HitsOnEdges::kOfOne, out};
+      const size_t before = out.primitive.size();
       traverse(data, 0, 0.0f, ray, visitor);
+      if (data.references > data.primitives) drop_repeated(before, out);
     }
   }
 }

@@ -121,17 +121,46 @@ inline bool owns_hit(const TraceRay& ray, const TriangleView& vertex) {
   return u == v && v == w;
 }
 
-// Watertight ray-triangle test. On a hit sets t, in units of the scaled direction; 0 < t, t may exceed ray.t_max.
+// With e = 2^-53 and s the largest |x|, |y| of the corners, rounded edge functions are off by at most 4 e s^2, and the point that they stand
+// for by 12 e s^3 / |det| along x and y. Where that may exceed 2^-13 s, the triangle is seen edge-on: its projection is thinner than 2^-36 s.
+inline constexpr double kEdgeOn = 0x1p-36, kNearEdge = 0x1p-13;
+
+// Of a triangle that is seen edge-on: does the ray pass within kNearEdge * size of an edge, where that is in front? It does wherever it
+// passes inside; but an edge function that was rounded to 0 may put a ray inside that is far from the triangle.
+[[gnu::noinline, gnu::cold]] inline bool passes_edge(const SeenTriangle& t, bool forward, double size) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    const double za = forward ? t.z[i] : -t.z[i], zb = forward ? t.z[j] : -t.z[j];
+    if (za < 0 && zb < 0) continue;
+    const double from = za < 0 ? za / (za - zb) : 0, to = zb < 0 ? za / (za - zb) : 1;
+    const double dx = t.x[j] - t.x[i], dy = t.y[j] - t.y[i], length2 = dx * dx + dy * dy;
+    const double nearest = length2 > 0 ? std::min(std::max(-(t.x[i] * dx + t.y[i] * dy) / length2, from), to) : from;
+    const double x = t.x[i] + nearest * dx, y = t.y[i] + nearest * dy;
+    if (x * x + y * y <= kNearEdge * kNearEdge * size * size) return true;
+  }
+  return false;
+}
+
+// Of the extent of a triangle (the largest side of its box): twice what a ray that hits it passes it by at most.
+inline constexpr double kPartMargin = 0x1p-10;
+
+// Watertight ray-triangle test. On a hit sets t, in units of the scaled direction; 0 < t <= kLargestT, t may exceed ray.t_max.
 // Source:   Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; Pharr, Jakob, Humphreys, PBR 4th ed., 6.8.7.
 // Contract: unfused, so edge functions of a shared edge are exact opposites; their signs are right or the value is 0, and 0 counts as
 //           inside, so no ray passes between two triangles. Hits not provably in front of the origin are refused.
-//           t lies in the slab interval of the triangle's box, so no node around it can be culled before it.
+//           No hit is lost to boxes. Of the triangle's own: the ray meets it, and t is no less than where it enters. Of boxes that hold parts
+//           of it, each with kPartMargin more on all sides: the ray meets one of them, and enters it at no more than t. For it passes
+//           within 2^-11 of the triangle's extent of one of its points, at t; or, where the triangle is seen edge-on, at no more than t,
+//           which there is that of the farthest corner. (What rounding adds for far origins is less than slab() widens boxes by.)
 [[gnu::always_inline]] inline bool hit_triangle(const TraceRay& ray, const TriangleView& vertex, double& t) {
   const SeenTriangle seen(ray, vertex);
   const auto &[x, y, z, u, v, w] = seen;
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
   const double det = u + v + w;
   if (det == 0) return false;
+  double s = 0;
+  for (int i = 0; i < 3; ++i) s = std::max(s, std::max(std::fabs(x[i]), std::fabs(y[i])));
+  const bool edge_on = !(std::fabs(det) > kEdgeOn * s * s);
 
   const double z_min = std::min(std::min(z[0], z[1]), z[2]), z_max = std::max(std::max(z[0], z[1]), z[2]);
   const double z_hit = std::clamp((u * z[0] + v * z[1] + w * z[2]) / det, z_min, z_max);
@@ -139,8 +168,6 @@ inline bool owns_hit(const TraceRay& ray, const TriangleView& vertex) {
   if (forward ? z_min <= 0 : z_max >= 0) {
     // Not wholly in front: is z_hit beyond its own error? Each x, y is off by at most 6 e M, each edge function by 40 e M (s + 8 e M).
     constexpr double e = 0x1p-53;
-    double s = 0;
-    for (int i = 0; i < 3; ++i) s = std::max(s, std::max(std::fabs(x[i]), std::fabs(y[i])));
     const double reach = std::max(std::fabs(z_min), std::fabs(z_max)), m = s + reach;
     const double edge_error = 40 * e * m * (s + 8 * e * m);
     if (!((forward ? z_hit : -z_hit) * std::fabs(det) > 3 * edge_error * reach + 8 * e * std::fabs(det) * reach)) return false;
@@ -151,8 +178,9 @@ inline bool owns_hit(const TraceRay& ray, const TriangleView& vertex) {
     const float a = vertex(0, k), b = vertex(1, k), c = vertex(2, k);
     slab(ray, k, std::min(std::min(a, b), c), std::max(std::max(a, b), c), near, far);
   }
-  if (near > far) return false;
-  t = std::clamp(z_hit / ray.direction_z, static_cast<double>(near), static_cast<double>(far));
+  if (near > far || (edge_on && !passes_edge(seen, forward, s))) return false;
+  const double z_t = !edge_on ? z_hit : forward ? z_max : z_min;
+  t = std::clamp(z_t / ray.direction_z, static_cast<double>(near), static_cast<double>(kLargestT));
   return true;
 }
 

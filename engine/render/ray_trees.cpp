@@ -14,7 +14,7 @@ RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQu
   const auto build = [&](uint32_t value, Tree& tree) {
     Tree built;  // all of it or nothing, should memory run out
     built.build_ms = timed_ms([&] {
-      built.bvh = std::make_unique<Bvh>(build_bvh(scene, flags_.data(), kMaterialTranslucent, value, parallel, quality_));
+      built.bvh = std::make_unique<Bvh>(build_bvh(scene, flags_.data(), kMaterialTranslucent, value, parallel, quality_, !moving.empty()));
       if (!moving.empty()) built.refit = std::make_unique<BvhRefit>(*built.bvh, moving);
     });
     if (built.refit) built.built_cost = built.refit->cost();
