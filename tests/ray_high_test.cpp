@@ -51,7 +51,8 @@ TEST(RayHigh, CompleteAndCheaper) {
   TestRandom random(42);
   for (const int small : {1000, 30000}) {
     const SceneData scene = make_test_scene(mixed_soup(random, small));
-    const Bvh fast = build(scene, TreeQuality::kFast), whole = build(scene, TreeQuality::kHigh, 2, true), parts = build(scene, TreeQuality::kHigh);
+    const Bvh fast = build(scene, TreeQuality::kFast), whole = build(scene, TreeQuality::kHigh, 2, true);
+    const Bvh parts = build(scene, TreeQuality::kHigh);
     check_complete(scene, whole);
     check_parts(scene, parts);
     EXPECT_TRUE(in_parts(parts));
@@ -126,7 +127,8 @@ std::vector<SoupTriangle> bars_on_grid(TestRandom& random) {
   std::vector<SoupTriangle> soup;
   const auto place = [&] { return glm::dvec3(random.between(-6, 6), random.between(-6, 6), random.between(-6, 6)) * 0.5; };
   for (int i = 0; i < 60; ++i) {
-    const glm::dvec3 a = place(), b = place(), c = b + glm::dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) * 0.25;
+    const glm::dvec3 a = place(), b = place();
+    const glm::dvec3 c = b + glm::dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) * 0.25;
     soup.push_back(soup_triangle(a, b, c));
     soup.push_back(soup_triangle(a, c, a + (c - b)));
   }
@@ -203,7 +205,8 @@ TEST(RayHigh, FollowsMotionAndEqualsATreeBuiltAnew) {
     t->frame.scene = &posed.data(), t->frame.material_flags = kNoFlags.data();
     TestRandom random(3);
     RayBatch rays = make_rays(12000);
-    for (int i = 0; i < rays.count; ++i) set_ray(rays, i, random_point(random, 3) + glm::dvec3(0, 2, 0), random_point(random, 1));
+    for (int i = 0; i < rays.count; ++i)
+      set_ray(rays, i, random_point(random, 3) + glm::dvec3(0, 2, 0), random_point(random, 1));
     const Isa isa = supported_isas().back();
     const Answers want = trace(*t, build(posed.data(), TreeQuality::kFast), rays, isa);
     expect_equal(trace(*t, bvh, rays, isa), want, rays, "refitted");

@@ -47,7 +47,9 @@ double enters(const TraceRay& ray, const Box& box) {
 }
 
 // How far a ray leaves the plane that it should lie in: not at all, by the last bits of a double, by those of a float, visibly.
-double off_plane(TestRandom& random) { return random.below(5) == 0 ? 0 : std::ldexp(random.uniform(-1, 1), -4 - random.below(56)); }
+double off_plane(TestRandom& random) {
+  return random.below(5) == 0 ? 0 : std::ldexp(random.uniform(-1, 1), -4 - random.below(56));
+}
 
 // In and beside the plane of a triangle, along its edges and not, from near and far, through it and past it.
 struct RayThrough { glm::dvec3 origin, direction; };
@@ -89,7 +91,8 @@ TEST(RayPresplit, EveryHitIsInsideAPart) {
     for (int i = 0; i < 3000; ++i) {
       const RayThrough r = awkward_ray(random, corner, on_grid);
       float origin[3], direction[3];
-      for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(r.origin[k]), direction[k] = static_cast<float>(r.direction[k]);
+      for (int k = 0; k < 3; ++k)
+        origin[k] = static_cast<float>(r.origin[k]), direction[k] = static_cast<float>(r.direction[k]);
       TraceRay ray;
       double t;
       if (!prepare_ray(origin, direction, kInfinity, ray) || !hit_triangle(ray, TriangleView{v, 3, 1}, t)) continue;
@@ -100,7 +103,7 @@ TEST(RayPresplit, EveryHitIsInsideAPart) {
       thin += !(std::fabs(seen.u + seen.v + seen.w) > kEdgeOn * s * s);
       double first = INFINITY;
       for (const Box& box : parts.box) first = std::min(first, enters(ray, box));
-      ASSERT_LE(first, t) << "triangle " << n << " ray " << i << ": origin " << r.origin.x << " " << r.origin.y << " " << r.origin.z;
+      ASSERT_LE(first, t) << "triangle " << n << " ray " << i;
     }
   }
   EXPECT_GT(parts_seen, 2000);

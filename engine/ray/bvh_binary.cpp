@@ -38,8 +38,10 @@ BinaryTree compact(const SparseTree& sparse) {
   BinaryTree tree;
   std::vector<uint32_t> order = {0};
   for (size_t i = 0; i < order.size(); ++i)
-    if (const uint32_t middle = sparse.middle[order[i]]; middle != 0) order.push_back(2 * middle - 1), order.push_back(2 * middle);
-  tree.box.resize(order.size()), tree.child.resize(order.size()), tree.count.resize(order.size()), tree.parent.resize(order.size() / 2 + 1);
+    if (const uint32_t middle = sparse.middle[order[i]]; middle != 0)
+      order.push_back(2 * middle - 1), order.push_back(2 * middle);
+  tree.box.resize(order.size()), tree.child.resize(order.size()), tree.count.resize(order.size());
+  tree.parent.resize(order.size() / 2 + 1);
   tree.parent[0] = 0;
   uint32_t next = 1;
   for (uint32_t i = 0; i < order.size(); ++i) {
@@ -61,7 +63,8 @@ std::vector<uint32_t> top_down(const BinaryTree& tree) {
   std::vector<uint32_t> order = {0};
   order.reserve(tree.nodes());
   for (size_t i = 0; i < order.size(); ++i)
-    if (const uint32_t node = order[i]; !tree.leaf(node)) order.push_back(tree.child[node]), order.push_back(tree.child[node] + 1);
+    if (const uint32_t node = order[i]; !tree.leaf(node))
+      order.push_back(tree.child[node]), order.push_back(tree.child[node] + 1);
   return order;
 }
 

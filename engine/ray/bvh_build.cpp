@@ -185,8 +185,8 @@ Bvh::~Bvh() = default;
 size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
 size_t Bvh::primitive_count() const { return data_->primitives; }
 
-Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel, TreeQuality quality,
-              bool follows_motion) {
+Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
+              TreeQuality quality, bool follows_motion) {
   Bvh bvh;
   AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
   Bvh::Data& data = *bvh.data_;
@@ -197,7 +197,8 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
   Box all = Box::empty();
   const BvhNode& root = data.nodes[0];
   for (int c = 0; c < kBvhWidth; ++c)
-    all.add({bvh::F4{root.bounds[0][c], root.bounds[1][c], root.bounds[2][c], 0}, bvh::F4{root.bounds[3][c], root.bounds[4][c], root.bounds[5][c], 0}});
+    all.add({bvh::F4{root.bounds[0][c], root.bounds[1][c], root.bounds[2][c], 0},
+             bvh::F4{root.bounds[3][c], root.bounds[4][c], root.bounds[5][c], 0}});
   for (int k = 0; k < 3; ++k) data.bounds_min[k] = all.lo[k], data.bounds_max[k] = all.hi[k];
   return bvh;
 }

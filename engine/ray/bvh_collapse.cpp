@@ -8,9 +8,9 @@ namespace {
 // What a subtree costs as at most i children of a wide node, i from 1 to 7, and how to get there.
 struct Cheapest {
   static constexpr uint8_t kFewer = 0xff;
-  float cost[kBvhWidth];         // [i]
-  uint8_t left[kBvhWidth + 1];   // [i]: of i children so many are of the left side; kFewer: i - 1 do as well. [8]: of a wide node
-  bool leaf;                     // as one child
+  float cost[kBvhWidth];        // [i]
+  uint8_t left[kBvhWidth + 1];  // [i]: so many of the i are of the left side; kFewer: i - 1 do as well. [8]: of a wide node
+  bool leaf;                    // as one child
   uint32_t references;
 };
 
@@ -35,7 +35,8 @@ class Collapse {
       const Box& box = tree_.box[parts[i]];
       set_box(wide_.nodes[index], i, box);
       wide_.cost += static_cast<double>(box.half_area());
-      const uint32_t child = cheapest_[parts[i]].leaf ? add_leaf(parts[i]) : add_node(parts[i], depth + 1);  // may move wide_.nodes
+      const bool leaf = cheapest_[parts[i]].leaf;
+      const uint32_t child = leaf ? add_leaf(parts[i]) : add_node(parts[i], depth + 1);  // may move wide_.nodes
       wide_.nodes[index].child[i] = child;
     }
     return index;

@@ -77,7 +77,8 @@ struct Grid {
     Plane best;
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
-      const double origin = scene.lo[k], size = static_cast<double>(scene.hi[k]) - origin, side = box.hi[k] - box.lo[k];
+      const double origin = scene.lo[k], size = static_cast<double>(scene.hi[k]) - origin;
+      const double side = box.hi[k] - box.lo[k];
       if (!(side > 0)) continue;
       double cell = 0.5 * size;
       for (int level = 1; level < std::min(best.level + 1, kLevels); ++level, cell *= 0.5) {
@@ -141,7 +142,8 @@ class TriangleSplitter {
  private:
   void split(const Polygon& p, int splits, int depth) {
     const DoubleBox box = box_of(p);
-    const Grid::Plane plane = splits > 0 && depth < kLevels && 2 * p.count <= Polygon::kMost ? grid_.through(box) : Grid::Plane();
+    const bool may = splits > 0 && depth < kLevels && 2 * p.count <= Polygon::kMost;
+    const Grid::Plane plane = may ? grid_.through(box) : Grid::Plane();
     if (plane.level == kLevels) return add(box);
     const Polygon side[2] = {clip(p, plane.axis, plane.at, true), clip(p, plane.axis, plane.at, false)};
     double length[2];
@@ -182,7 +184,9 @@ AlignedBuffer<Ref> presplit(const SceneData& scene, const AlignedBuffer<Ref>& re
     });
   };
   std::vector<double> priority(refs.size());
-  in_chunks(refs.size(), [&](size_t, size_t i) { priority[i] = priority_of(triangle_polygon(scene, refs[i].primitive()), grid); });
+  in_chunks(refs.size(), [&](size_t, size_t i) {
+    priority[i] = priority_of(triangle_polygon(scene, refs[i].primitive()), grid);
+  });
   std::vector<Candidate> candidates;
   for (uint32_t i = 0; i < refs.size(); ++i)
     if (priority[i] > 0) candidates.push_back({i, priority[i]});

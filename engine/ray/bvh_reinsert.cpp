@@ -86,7 +86,8 @@ void set_content(BinaryTree& tree, uint32_t node, const Content& c) {
 
 // The sibling takes the parent's place; the pair that becomes free stands below `to`.
 void apply(BinaryTree& tree, const Move& move) {
-  const uint32_t sibling = BinaryTree::sibling(move.from), parent = tree.parent_of(move.from), pair = std::min(move.from, sibling);
+  const uint32_t sibling = BinaryTree::sibling(move.from), parent = tree.parent_of(move.from);
+  const uint32_t pair = std::min(move.from, sibling);
   const Content kept = content(tree, sibling), there = content(tree, move.to);
   set_content(tree, sibling, there);
   set_content(tree, parent, kept);
@@ -102,13 +103,16 @@ bool inside(const BinaryTree& tree, uint32_t node, uint32_t subtree) {
 
 // The best moves first, leaving out those that touch a better one. moves: gains are of the tree as it was.
 void apply_all(BinaryTree& tree, std::vector<Move>& moves) {
-  std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.gain != b.gain ? a.gain > b.gain : a.from < b.from; });
+  std::sort(moves.begin(), moves.end(),
+            [](const Move& a, const Move& b) { return a.gain != b.gain ? a.gain > b.gain : a.from < b.from; });
   std::vector<bool> touched(tree.nodes());
+  const auto is_touched = [&](uint32_t n) { return touched[n]; };
   for (const Move& m : moves) {
     const uint32_t parent = tree.parent_of(m.from);
-    const uint32_t nodes[] = {m.from, m.to, BinaryTree::sibling(m.from), parent, tree.parent_of(parent), tree.parent_of(m.to)};
+    const uint32_t nodes[] = {m.from, m.to, BinaryTree::sibling(m.from),
+                              parent, tree.parent_of(parent), tree.parent_of(m.to)};
     // An earlier move may have put the subtree that holds the place into this one.
-    if (std::any_of(nodes, nodes + 6, [&](uint32_t n) { return touched[n]; }) || inside(tree, m.to, m.from)) continue;
+    if (std::any_of(nodes, nodes + 6, is_touched) || inside(tree, m.to, m.from)) continue;
     for (const uint32_t n : nodes) touched[n] = true;
     apply(tree, m);
   }
