@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ray/bvh_refit.h"
+#include "render/ray_trees.h"
 #include "scene/pose.h"
 #include "support/moving_scene.h"
 #include "support/ray_answers.h"
@@ -185,6 +186,23 @@ TEST(RayHigh, EveryLayerOnce) {
       EXPECT_TRUE(got == want) << isa_name(isa);
       EXPECT_TRUE(std::adjacent_find(got.begin() + 1, got.end()) == got.end());
     }
+}
+
+// A renderer that is asked for the other tree builds it; where something moves, of whole triangles.
+TEST(RayHigh, TreesOfAFrameAreOfTheQualityAskedFor) {
+  TestRandom random(48);
+  const SceneData scene = make_test_scene(mixed_soup(random, 4000));
+  Parallel parallel(2);
+  Plan plan;
+  plan.flags.bvh = true, plan.material_flags = kNoFlags;
+  RayTrees trees;
+  for (const TreeQuality quality : {TreeQuality::kFast, TreeQuality::kHigh, TreeQuality::kFast}) {
+    trees.update(scene, plan, quality, {}, 0, parallel);
+    EXPECT_EQ(tree_hash(*trees.opaque()), tree_hash(build(scene, quality)));
+  }
+  RayTrees moving;
+  moving.update(scene, plan, TreeQuality::kHigh, {{0, 10, 0}}, 0, parallel);
+  EXPECT_EQ(tree_hash(*moving.opaque()), tree_hash(build(scene, TreeQuality::kHigh, 2, true)));
 }
 
 TEST(RayHigh, FollowsMotionAndEqualsATreeBuiltAnew) {
