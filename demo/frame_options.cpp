@@ -121,6 +121,8 @@ void FrameOptions::add_to(CLI::App& command) {
   add_word(command, "--normals", &Settings::normals, "Interpolated normals: made unit vectors again, or not (Phong shading)");
   add_word(command, "--powers", &Settings::powers, "The power in highlights");
   add_word(command, "--shading-rate", &Settings::shading_rate, "Pixels shaded at once where they see one surface");
+  add_word(command, "--shadow-terminator", &Settings::shadow_terminator,
+           "Shadow edges on coarse meshes with smooth normals: as the flat triangles have them, or by lifted shadow rays as well");
   add_switch(command, "--no-textures", &Settings::textures, "Material colors only");
   add_switch(command, "--no-bump", &Settings::bump, "No bump or normal maps");
 }

@@ -38,6 +38,7 @@ std::vector<std::pair<std::string, std::string>> settings_words(const Settings& 
           {"normals", enum_text(s.normals)},
           {"powers", enum_text(s.powers)},
           {"shading_rate", enum_text(s.shading_rate)},
+          {"shadow_terminator", enum_text(s.shadow_terminator)},
           {"time", number_text(s.time)},
           {"textures", s.textures ? "on" : "off"},
           {"bump", s.bump ? "on" : "off"}};

@@ -119,6 +119,7 @@ bool draw_switches(WalkSession& session) {
   changed |= enum_row("normals", s.normals);
   changed |= enum_row("powers", s.powers);
   changed |= enum_row("shading rate", s.shading_rate);
+  changed |= enum_row("terminator", s.shadow_terminator);
   changed |= samples_row(s.samples);
   if (s.samples > 1) changed |= enum_row("antialiasing", s.antialiasing);
   label("maps");

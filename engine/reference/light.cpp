@@ -81,6 +81,10 @@ glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s) {
 
 bool faces(const Surface& s, const Light& light) { return dot3(s.geometric, incidence(light, s.position).direction) > 0; }
 
+bool faces_lifted(const Surface& s, const Light& light) {
+  return s.lift != glm::dvec3(0) && dot3(s.smooth, incidence(light, s.position).direction) > 0;
+}
+
 glm::dvec3 reflected(const SceneData& scene, Shading shading, const Surface& s, const Light& light, const glm::dvec3& viewer) {
   const Material& m = scene.materials[material_of(scene.triangles[s.primitive])];
   if (shading == Shading::kFlat) return flat(scene, s, m.reflectance, light, viewer);

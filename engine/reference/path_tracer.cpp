@@ -29,6 +29,7 @@ Ray ray_along(const glm::dvec3& origin, const glm::dvec3& direction) {
 
 Settings for_paths(Settings s) {
   s.shading = Shading::kPhong, s.shadows = Shadows::kRay, s.reflections = Reflections::kRay, s.samples = 1;
+  s.shadow_terminator = ShadowTerminator::kOff;
   if (s.transparency != Transparency::kNone) s.transparency = Transparency::kAlpha;
   return s;
 }

@@ -32,17 +32,22 @@ class Renderer {
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
-  bool lit(const Ray& ray, const Surface& s, const Light& light) const {
-    if (settings_.shadows == Shadows::kNone) return true;
-    const Way way = way_to(light, start_above(s));
+  bool free(const Ray& ray, const Way& way) const {
     Ray shadow;  // a point: cut-outs are read at full detail
     shadow.line = way.line, shadow.x = ray.x, shadow.y = ray.y;
     return !world_.opaque.any(way.line, 0, way.t_max, world_.blocks(shadow));
   }
+  // Of a light that the surface faces, in one of the two ways.
+  bool lit(const Ray& ray, const Surface& s, const Light& light) const {
+    if (settings_.shadows == Shadows::kNone) return true;
+    const glm::dvec3 start = start_above(s), lifted = s.position + s.lift;
+    if (faces(s, light) && free(ray, way_to(light, start))) return true;
+    return faces_lifted(s, light) && free(ray, way_to(light, lifted)) && free(ray, {{start, lifted - start}, kLiftReach});
+  }
   glm::dvec3 shade(const Ray& ray, const Surface& s) const {
     glm::dvec3 sum = ambient_radiance(world_.scene, s);
     for (const Light& light : world_.lights) {
-      if (!faces(s, light)) continue;
+      if (!faces(s, light) && !faces_lifted(s, light)) continue;
       const glm::dvec3 light_sum = reflected(world_.scene, settings_.shading, s, light, ray.line.origin);
       if (light_sum != glm::dvec3(0) && lit(ray, s, light)) sum += light_sum;
     }

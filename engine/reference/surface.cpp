@@ -6,6 +6,8 @@
 namespace spanray::reference {
 namespace {
 
+constexpr double kLeastLiftAngle = 0x1p-16;  // radians
+
 double max_abs(const glm::dvec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 // A shading normal below the horizon is lifted to it.
@@ -141,6 +143,24 @@ glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive)
   return dot3(blend, blend) > 1e-6 ? normalize3(blend, point.geometric) : point.geometric;
 }
 
+// To the point's projections onto the tangent planes at the corners, blended (Hanika 2021, "Hacking the Shadow Terminator"), where
+// it lies below them. Nothing for corners that agree, for what angles below 2^-16 would lift, and where the result is not above
+// the triangle.
+glm::dvec3 Surfaces::lift(const Point& point, uint32_t primitive, double clearance) const {
+  const Triangle& triangle = scene_.triangles[primitive];
+  glm::dvec3 corner[3], sum(0), lift(0);
+  for (int k = 0; k < 3; ++k) corner[k] = to_dvec(scene_.vertices[triangle.vertex[k]].normal), sum += corner[k];
+  if (corner[0] == corner[1] && corner[0] == corner[2]) return lift;
+  const double side = dot3(sum, point.geometric) < 0 ? -1 : 1;
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 from = point.position - point.v[k];
+    const double below = -dot3(from, corner[k] * side);
+    if (below > kLeastLiftAngle * (std::fabs(from.x) + std::fabs(from.y) + std::fabs(from.z)))
+      lift += corner[k] * (side * below * point.weight[k]);
+  }
+  return dot3(lift, point.geometric) > 8 * clearance ? lift : glm::dvec3(0);
+}
+
 // Height maps after Blinn 1978, then normal maps, whose 8-bit channel c means (c - 128) / 127. Tangents go along growing s and
 // t.
 glm::dvec3 Surfaces::bumped(const Point& p, const Material& m, glm::dvec3 n) const {
@@ -190,6 +210,7 @@ Surface Surfaces::at(const Ray& ray, uint32_t primitive, const Nudge& nudge) con
   std::copy_n(p.weight, 3, s.weight);
   s.view = normalize3(ray.line.origin - p.position, -ray.line.direction);
   s.normal = settings_.shading == Shading::kFlat ? s.geometric : interpolated_normal(p, primitive);
+  s.smooth = s.normal;
   if (settings_.bump && settings_.shading == Shading::kPhong) s.normal = bumped(p, m, s.normal);
   s.normal = above_horizon(s.normal, s.geometric);
   s.ambient = to_dvec(m.ambient), s.diffuse = to_dvec(m.diffuse), s.specular = to_dvec(m.specular), s.emission = to_dvec(m.emission);
@@ -198,6 +219,8 @@ Surface Surfaces::at(const Ray& ray, uint32_t primitive, const Nudge& nudge) con
   apply_maps(p, m, s);
   // A generous bound on the rounding of position, in double: some thousand units in the last place of what it was made from.
   s.clearance = 0x1p-42 * (max_abs(p.v[0]) + max_abs(p.edge1) + max_abs(p.edge2) + max_abs(ray.line.origin));
+  if (settings_.shadow_terminator == ShadowTerminator::kLifted && settings_.shading != Shading::kFlat)
+    s.lift = lift(p, primitive, s.clearance);
   return s;
 }
 

@@ -32,6 +32,9 @@ struct Surface {
   glm::dvec3 ambient{0}, diffuse{0}, specular{0}, emission{0}, mirror{0};
   double shininess = 1, opacity = 1;
   double clearance = 0;  // rays that leave the surface start this far above it
+  // With ShadowTerminator::kLifted: from the position to where lifted shadow rays start, in the scene's units; zero where there
+  // are none. smooth: the interpolated normal, before maps bend it; unit.
+  glm::dvec3 lift{0}, smooth{0};
 };
 
 class Surfaces {
@@ -53,6 +56,7 @@ class Surfaces {
   struct Point;  // where the ray meets the plane of the triangle
   Point point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const;
   glm::dvec3 interpolated_normal(const Point& point, uint32_t primitive) const;
+  glm::dvec3 lift(const Point& point, uint32_t primitive, double clearance) const;
   glm::dvec3 bumped(const Point& point, const Material& material, glm::dvec3 normal) const;
   void apply_maps(const Point& point, const Material& material, Surface& s) const;
   const TextureUse* use(int32_t map) const;

@@ -109,7 +109,8 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   if (!node->is_table()) return root.fail("technique", "must be a table, written [technique]");
   TomlTable t(*node->as_table(), "[technique]",
               {"shading", "shadows", "reflections", "visibility", "filter", "transparency", "culling", "max_bounces",
-               "samples", "antialiasing", "normals", "powers", "shading_rate", "textures", "bump", "width", "height", "time"},
+               "samples", "antialiasing", "normals", "powers", "shading_rate", "shadow_terminator", "textures", "bump", "width", "height",
+               "time"},
               errors);
   t.word("shading", &s.shading);
   t.word("shadows", &s.shadows);
@@ -127,6 +128,7 @@ void read_technique(TomlTable& root, Settings& s, TomlErrors& errors) {
   t.word("normals", &s.normals);
   t.word("powers", &s.powers);
   t.word("shading_rate", &s.shading_rate);
+  t.word("shadow_terminator", &s.shadow_terminator);
   t.boolean("textures", &s.textures);
   t.boolean("bump", &s.bump);
   t.number("time", {-kMostSeconds, kMostSeconds}, &s.time);

@@ -26,6 +26,10 @@ enum class Powers { kFast, kExact };
 enum class ShadingRate { k2x2, k1x1 };
 // The tree that rays go down: built fast, or built to be traced fast (ray/bvh_high.h). No picture depends on it.
 enum class TreeQuality { kFast, kHigh };
+// Where light ends on triangles with interpolated normals: shadow rays start on the flat triangle and nothing comes from behind it,
+// so the edge of light is one of blocks; or rays that find no light try again from above the triangle, where the curved surface
+// is that the normals speak of (Hanika 2021; docs/decisions/0014-shadow-terminator.md). Light is only ever added.
+enum class ShadowTerminator { kOff, kLifted };
 
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
 constexpr bool sample_count_ok(int count) {
@@ -54,6 +58,7 @@ struct Settings {
   Normals normals = Normals::kRenormalized;  // only with Phong shading
   Powers powers = Powers::kExact;
   ShadingRate shading_rate = ShadingRate::k1x1;  // 2x2 only where a pixel is shaded once: not when supersampling
+  ShadowTerminator shadow_terminator = ShadowTerminator::kOff;  // only with Gouraud and Phong shading
   double time = 0;  // seconds: where moving parts stand (docs of scene files: [[moving]]); nothing else depends on it
   bool textures = true;
   bool bump = true;
