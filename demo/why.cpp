@@ -60,7 +60,7 @@ void print_light(int indent, const LightTrace& trace, const SceneData& scene) {
     row(indent + 2, "shadow ray t_max", trace.t_max);
     if (trace.blocker != kNoPrimitive) text_row(indent + 2, "nearest on the way", "primitive " + std::to_string(trace.blocker));
   }
-  text_row(indent + 2, "lit", trace.lit ? "1" : "0");
+  text_row(indent + 2, "lit", !trace.lit ? "0" : trace.lifted ? "1, by a shadow ray from position + lift" : "1");
   row(indent + 2, "radiance if lit", trace.alone);
   row(indent + 2, "sum after it", trace.sum);
 }
@@ -81,6 +81,7 @@ void print_surface(int indent, const SurfaceTrace& s, const SceneData& scene) {
   row(indent, "geometric normal", s.geometric_normal);
   row(indent, "shading normal", s.normal);
   row(indent, "view", s.view);
+  if (s.lift[0] != 0 || s.lift[1] != 0 || s.lift[2] != 0) row(indent, "lift", s.lift);
   row(indent, "uv (before options)", s.uv);
   row(indent, "dp/dx", s.dpdx);
   row(indent, "dp/dy", s.dpdy);

@@ -128,6 +128,11 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
             "highlights take powers of 9 bits", "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");
+  const bool lifted = s.shadow_terminator == ShadowTerminator::kLifted;
+  f.lifted_rays = lines.add("lifted shadow rays", lifted && s.shading != Shading::kFlat,
+                            lifted ? "flat shading interpolates no normals" : "switched off", lit && use.any_smooth,
+                            "where coarse triangles have interpolated normals, light is looked for from above them as well",
+                            lit ? "each triangle has one normal" : "nothing is lit");
   f.bounces = lines.add("bounce rays", s.reflections == Reflections::kRay && s.max_bounces > 0, "switched off", w.mirror,
                         materials_text(w.mirror, "mirrored, up to " + counted(static_cast<uint64_t>(s.max_bounces), "bounce", "bounces")),
                         "no material mirrors");

@@ -32,7 +32,7 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
 // The plan does not know what else the caller asks for.
 void leave_out_unread(const FrameRequest& request, PlanFlags& plan) {
   plan.depths = plan.translucents || request.depth || request.ladder != nullptr;
-  plan.weights = plan.lit_vertices || request.uv || request.ladder != nullptr;
+  plan.weights = plan.lit_vertices || plan.lifted_rays || request.uv || request.ladder != nullptr;
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
     const uint32_t seen = ~(w.occluded[static_cast<size_t>(i) / 32] >> (i % 32)) & 1u, surface = w.surface_of_ray[i];
     w.lit[surface / 32] |= seen << (surface % 32);
   }
+  if (job.frame.plan.lifted_rays)
+    w.counts.rays_shadow += find_lifted_light(job.frame, *job.opaque, surfaces, light, w.lifted, w.lit.data());
   w.clock.enter(stage);
   return w.lit.data();
 }

@@ -14,6 +14,7 @@ struct LightTrace {
   bool in_front = false;                   // the light may reach the surface: only then is a shadow ray made
   bool has_ray = false;                    // shadow rays are part of the plan, and this surface got one
   float origin[3] = {}, direction[3] = {}, t_max = 0;
+  bool lifted = false;                     // no light by that ray, but by one from position + lift
   bool lit = true;
   uint32_t blocker = 0xffffffffu;          // nearest primitive on the way to the light, if a closest-hit ray finds one
   float to_light[3] = {}, irradiance[3] = {};  // at the position: unit direction, W/m^2 on a surface that faces the light
@@ -25,7 +26,7 @@ struct SurfaceTrace {
   uint32_t primitive = 0xffffffffu, material = 0;
   bool valid = false;
   float t = 0, weight[3] = {}, position[3] = {}, position_error = 0;
-  float geometric_normal[3] = {}, normal[3] = {}, view[3] = {};
+  float geometric_normal[3] = {}, normal[3] = {}, view[3] = {}, lift[3] = {};
   float uv[2] = {};                        // vertex coordinates weighted here, for orientation; shading has its own
   float dpdx[3] = {}, dpdy[3] = {};
   float ambient[3] = {}, diffuse[3] = {}, specular[3] = {}, emission[3] = {}, mirror[3] = {}, shininess = 0, opacity = 1;

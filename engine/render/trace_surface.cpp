@@ -1,6 +1,7 @@
 #include "render/trace_surface.h"
 
 #include "catalog/scalar.h"
+#include "render/lifted_light.h"
 
 namespace spanray {
 namespace {
@@ -49,6 +50,11 @@ LightTrace trace_light(const Frame& frame, const Bvh& opaque, const HitBatch& hi
       trace_closest(frame, opaque, rays, answer.data());
       trace.blocker = answer[0];
     }
+    if (frame.plan.lifted_rays && lit[0] == 0) {
+      LiftedLight scratch;
+      find_lifted_light(frame, opaque, s, index, scratch, lit.data());
+      trace.lifted = lit[0] != 0;
+    }
   }
   trace.lit = lit[0] != 0;
   Radiance alone;
@@ -69,7 +75,7 @@ SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch
   trace.primitive = s.primitive[0], trace.material = s.material[0];
   trace.t = s.t[0], trace.position_error = s.position_error[0], trace.shininess = s.shininess[0], trace.opacity = s.opacity[0];
   copy3(s.weight, 0, trace.weight), copy3(s.position, 0, trace.position), copy3(s.geometric_normal, 0, trace.geometric_normal);
-  copy3(s.normal, 0, trace.normal), copy3(s.view, 0, trace.view), copy3(s.dpdx, 0, trace.dpdx), copy3(s.dpdy, 0, trace.dpdy);
+  copy3(s.normal, 0, trace.normal), copy3(s.view, 0, trace.view), copy3(s.lift, 0, trace.lift), copy3(s.dpdx, 0, trace.dpdx), copy3(s.dpdy, 0, trace.dpdy);
   copy3(s.ambient, 0, trace.ambient), copy3(s.diffuse, 0, trace.diffuse), copy3(s.specular, 0, trace.specular);
   copy3(s.emission, 0, trace.emission), copy3(s.mirror, 0, trace.mirror);
   const Triangle& triangle = frame.scene->triangles[trace.primitive];

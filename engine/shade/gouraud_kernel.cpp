@@ -63,7 +63,7 @@ void light_vertices(const Frame& frame, const Light& light, const uint32_t* vert
 // Input:    light at vertices, or nullptr: the corners are lit here, seen from the origin of each ray.
 // Contract: corners count as lit on the side that the pixel's ray sees. The three normals are turned as one, by the sign of their
 //           sum against the geometric normal: whatever the winding says, and without a jump where one of them alone lies below
-//           the horizon. The geometric normal cuts off light per pixel. At a vertex: Phong (HARD-CASES S6).
+//           the horizon. The geometric normal cuts off light per pixel, but for lifted rays. At a vertex: Phong (HARD-CASES S6).
 template <class Kind>
 void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
                        const float* corner_light, float* const radiance[3]) {
@@ -74,7 +74,7 @@ void add_light_gouraud(const Frame& frame, const SurfaceBatch& s, const HitBatch
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, lit);
     if (!any(active)) continue;
-    active = active & in_front(s, i, Kind::incidence(lanes, load3(s.position, i)));
+    active = active & reached(frame, s, i, Kind::incidence(lanes, load3(s.position, i)), lit);
     if (!any(active)) continue;
     const V3 geometric_normal = load3(s.geometric_normal, i);
     V3 normals = {F32::zero(), F32::zero(), F32::zero()};

@@ -53,7 +53,7 @@ HWY_INLINE Site flat_site(const Frame& frame, const SurfaceBatch& s, const HitBa
 
 // Adds one light to each surface: intensity * attenuation * (Kd * diffuse + Ks * specular) (catalog/reflectance).
 // Input:    surfaces, the bits of those that the light reaches; plan.specular off: Ks is not read.
-// Contract: a surface whose geometric normal does not face the light gets nothing. Entries are independent: equal bits
+// Contract: a surface whose geometric normal does not face the light gets nothing, but by lifted rays. Entries are independent: equal bits
 //           for every split of the batch. Against double: within 1/255 after encoding (tests/shade_light_test.cpp).
 template <class Kind>
 void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
@@ -67,7 +67,7 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
     if (!any(active)) continue;
     Site site = {load3(s.position, i), load3(s.normal, i), load3(s.view, i)};
     Incidence incidence = Kind::incidence(lanes, site.position);
-    active = active & in_front(s, i, incidence);
+    active = active & reached(frame, s, i, incidence, lit);
     if (!any(active)) continue;
     if (flat) {
       site = flat_site(frame, s, hits, active, i);

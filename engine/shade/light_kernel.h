@@ -29,6 +29,14 @@ using MakeShadowRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfac
                                   AlignedBuffer<uint32_t>& surface_of_ray);
 extern const MakeShadowRaysFn kMakeShadowRays[kIsaCount];
 
+using MakeLiftedRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, int light, const uint32_t* lit, RayBatch& rays,
+                                  AlignedBuffer<uint32_t>& surface_of_ray);
+extern const MakeLiftedRaysFn kMakeLiftedRays[kIsaCount];
+
+using MakeLiftRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, const uint32_t* of, RayBatch& rays,
+                                AlignedBuffer<uint32_t>& surface_of_ray);
+extern const MakeLiftRaysFn kMakeLiftRays[kIsaCount];
+
 using MakeBounceRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,
                                   AlignedBuffer<uint32_t>& surface_of_ray);
 extern const MakeBounceRaysFn kMakeBounceRays[kIsaCount];

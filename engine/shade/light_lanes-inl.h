@@ -119,9 +119,24 @@ HWY_INLINE V3 view_from(const Viewer& viewer, const V3& position) {
 }
 
 // The surfaces that a light may reach at all: in front of it by the geometric normal. Shadow rays and shading ask this same
-// function, so a surface that had no shadow ray is not lit either.
+// function, so a surface that had no shadow ray is not lit either (reached() says where lifted rays make a difference).
 HWY_INLINE Mask in_front(const SurfaceBatch& s, int i, const Incidence& incidence) {
   return formula::dot(load3(s.geometric_normal, i), incidence.direction) > F32::zero();
+}
+
+// Those that it may reach by lifted rays: with a place for them, in front of it by the interpolated normal.
+HWY_INLINE Mask in_front_lifted(const SurfaceBatch& s, int i, const Incidence& incidence) {
+  const V3 lift = load3(s.lift, i);
+  const F32 zero = F32::zero();
+  const Mask stays = (lift.x == zero) & (lift.y == zero) & (lift.z == zero);
+  return and_not(stays, formula::dot(load3(s.smooth_normal, i), incidence.direction) > zero);
+}
+
+// Those that shading lights. With lifted rays, bits of `lit` say all; without shadow rays, either of the two is enough.
+HWY_INLINE Mask reached(const Frame& frame, const SurfaceBatch& s, int i, const Incidence& incidence, const uint32_t* lit) {
+  if (!frame.plan.lifted_rays) return in_front(s, i, incidence);
+  if (lit != nullptr) return first_lanes(kLanes);
+  return in_front(s, i, incidence) | in_front_lifted(s, i, incidence);
 }
 
 // radiance[c] += intensity_c * (Kd_c * diffuse + Ks_c * specular) in the active lanes; other entries are not written.

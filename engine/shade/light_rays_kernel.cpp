@@ -36,6 +36,26 @@ HWY_INLINE V3 offset_origin(const V3& position, const V3& n, F32 error) {
 
 HWY_INLINE void store3(const V3& v, float out[3][kLanes]) { v.x.store(out[0]), v.y.store(out[1]), v.z.store(out[2]); }
 
+struct ShadowRay { V3 origin, direction; F32 t_max; };
+
+// The rays of active lanes of surfaces i .., as rays n and on. kLeaves: they leave the surfaces' triangles.
+template <bool kLeaves>
+HWY_INLINE void append(const SurfaceBatch& s, int i, Mask active, const ShadowRay& ray, RayBatch& rays,
+                       AlignedBuffer<uint32_t>& surface_of_ray, int& n) {
+  float origin[3][kLanes], direction[3][kLanes], t_max[kLanes];
+  store3(ray.origin, origin);
+  store3(ray.direction, direction);
+  ray.t_max.store(t_max);
+  for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
+    const int k = __builtin_ctz(bits);
+    for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
+    rays.t_max[n] = t_max[k];
+    rays.pixel[n] = s.pixel[i + k];
+    if constexpr (kLeaves) rays.from[n] = s.primitive[i + k];
+    surface_of_ray[n++] = static_cast<uint32_t>(i + k);
+  }
+}
+
 // Shadow rays of one light, appended in order of surfaces.
 // Input:    Phong shading leaves out surfaces whose shading normal faces away; interpolated light (Gouraud) has no such rule.
 // Contract: a surface without a ray gets nothing from this light, whatever its bit says.
@@ -58,21 +78,42 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
     if (!any(active)) continue;
     const V3 from = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
     const Segment segment = Kind::segment(lanes, from);
-    float origin[3][kLanes], direction[3][kLanes], t_max[kLanes];
-    store3(from, origin);
-    store3(segment.direction, direction);
-    segment.t_max.store(t_max);
-    for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
-      const int k = __builtin_ctz(bits);
-      for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
-      rays.t_max[n] = t_max[k];
-      rays.pixel[n] = s.pixel[i + k];
-      rays.from[n] = s.primitive[i + k];
-      surface_of_ray[n++] = static_cast<uint32_t>(i + k);
-    }
+    append<true>(s, i, active, {from, segment.direction, segment.t_max}, rays, surface_of_ray, n);
   }
   rays.resize(n, false);
   rays.from.resize(static_cast<size_t>(n));
+  surface_of_ray.resize(static_cast<size_t>(n));
+}
+
+// Room for as many rays as there are surfaces, and none yet.
+void start_rays(const SurfaceBatch& s, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
+  rays.resize(s.count, false);
+  rays.from.resize(0);
+  surface_of_ray.resize(static_cast<size_t>(s.count));
+}
+
+// Of surfaces that shadow_rays() found no light for: rays from above their triangles. These leave no triangle: their own may stand
+// in the way like any other.
+template <class Kind>
+void lifted_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, const uint32_t* lit, RayBatch& rays,
+                 AlignedBuffer<uint32_t>& surface_of_ray) {
+  const LightLanes lanes = broadcast_light(light);
+  const bool by_normal = frame.settings.shading == Shading::kPhong;
+  start_rays(s, rays, surface_of_ray);
+  int n = 0;
+  for (int i = 0; i < s.count; i += kLanes) {
+    Mask active = and_not(active_lanes(s, i, lit), active_lanes(s, i, nullptr));
+    if (!any(active)) continue;
+    const V3 position = load3(s.position, i);
+    const Incidence incidence = Kind::incidence(lanes, position);
+    active = active & in_front_lifted(s, i, incidence);
+    if (by_normal) active = active & (formula::dot(load3(s.normal, i), incidence.direction) > F32::zero());
+    if (!any(active)) continue;
+    const V3 from = position + load3(s.lift, i);
+    const Segment segment = Kind::segment(lanes, from);
+    append<false>(s, i, active, {from, segment.direction, segment.t_max}, rays, surface_of_ray, n);
+  }
+  rays.resize(n, false);
   surface_of_ray.resize(static_cast<size_t>(n));
 }
 
@@ -139,6 +180,36 @@ void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light
   }
 }
 
+void make_lifted_rays_entry(const Frame& frame, const SurfaceBatch& s, int light, const uint32_t* lit, RayBatch& rays,
+                            AlignedBuffer<uint32_t>& surface_of_ray) {
+  const Light& l = light_of(frame, light);
+  switch (l.kind) {
+#define SPANRAY_CATALOG_ENTRY(index, name) \
+  case index: return lifted_rays<LightKind_##name>(frame, s, l, lit, rays, surface_of_ray);
+#include "catalog_lights_list.inc"
+#undef SPANRAY_CATALOG_ENTRY
+  }
+}
+
+// From the surfaces up to where their lifted rays start, and on by 2^-10 of the way: what lies at that place itself is met by this
+// ray, since a ray meets nothing where it starts.
+void make_lift_rays_entry(const Frame&, const SurfaceBatch& s, const uint32_t* of, RayBatch& rays,
+                          AlignedBuffer<uint32_t>& surface_of_ray) {
+  start_rays(s, rays, surface_of_ray);
+  rays.from.resize(static_cast<size_t>(s.count));
+  int n = 0;
+  for (int i = 0; i < s.count; i += kLanes) {
+    const Mask active = active_lanes(s, i, of);
+    if (!any(active)) continue;
+    const V3 position = load3(s.position, i);
+    const V3 from = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
+    append<true>(s, i, active, {from, position + load3(s.lift, i) - from, f32(1.0f + 0x1p-10f)}, rays, surface_of_ray, n);
+  }
+  rays.resize(n, false);
+  rays.from.resize(static_cast<size_t>(n));
+  surface_of_ray.resize(static_cast<size_t>(n));
+}
+
 // Mirror rays about the shading normal, appended in order of surfaces.
 // Source:   Igehy 1999, "Tracing Ray Differentials", eqs. 13-15. The normal's own differential is taken as 0: footprints in
 //           curved mirrors are those of the tangent plane's mirror.
@@ -190,6 +261,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace spanray {
 const MakeShadowRaysFn kMakeShadowRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_shadow_rays_entry);
+const MakeLiftedRaysFn kMakeLiftedRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_lifted_rays_entry);
+const MakeLiftRaysFn kMakeLiftRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_lift_rays_entry);
 const MakeBounceRaysFn kMakeBounceRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_bounce_rays_entry);
 }  // namespace spanray
 #endif

@@ -6,6 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/resolve_kernel.cpp"
 #include "hwy/foreach_target.h"
+#include "shade/lift-inl.h"
 #include "shade/material-inl.h"
 #include "shade/primary-inl.h"
 
@@ -19,7 +20,7 @@ namespace {
 HWY_NOINLINE void clear_misses(const SurfaceBatch& out, int at, Mask valid) {
   const auto clear = [&](float* field) HWY_ATTR { select(valid, F32::load(field + at), F32::zero()).store(field + at); };
   for (float* const* v : {out.position, out.geometric_normal, out.normal, out.view, out.weight, out.dpdx, out.dpdy, out.ambient,
-                          out.diffuse, out.specular, out.emission, out.mirror})
+                          out.diffuse, out.specular, out.emission, out.mirror, out.lift, out.smooth_normal})
     for (int k = 0; k < 3; ++k) clear(v[k]);
   for (float* f : {out.position_error, out.t, out.shininess, out.opacity}) clear(f);
   for (uint32_t* w : {out.pixel, out.ray, out.primitive, out.material, out.valid})
@@ -180,6 +181,7 @@ void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
                       return load_differentials(frame, lanes);
                     }), uv);
       store_material(frame, out, at, lanes, uv);
+      if (out.fields & kSurfaceLift) store_lift(frame, out, at, lanes);
     }
     const int left = hits.count - at;
     const Mask missed = and_not(lanes.valid, first_lanes(left < kLanes ? left : kLanes));
@@ -198,7 +200,7 @@ namespace spanray {
 namespace {
 uint32_t surface_fields(const PlanFlags& plan) {
   return (plan.ambient ? kSurfaceAmbient : 0u) | (plan.emission ? kSurfaceEmission : 0u) | (plan.bounces ? kSurfaceMirror | kSurfaceFootprint : 0u) |
-         (plan.depths ? kSurfaceDepth : 0u) | (plan.weights ? kSurfaceWeight : 0u);
+         (plan.depths ? kSurfaceDepth : 0u) | (plan.weights ? kSurfaceWeight : 0u) | (plan.lifted_rays ? kSurfaceLift : 0u);
 }
 }  // namespace
 

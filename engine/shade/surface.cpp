@@ -18,7 +18,8 @@ void SurfaceBatch::resize(int n, uint32_t written) {
   struct Vector { float** field; uint32_t needs; };
   const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, kSurfaceWeight}, {diffuse, 0}, {specular, 0},
                             {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint}, {ambient, kSurfaceAmbient},
-                            {emission, kSurfaceEmission}, {mirror, kSurfaceMirror}};
+                            {emission, kSurfaceEmission}, {mirror, kSurfaceMirror},
+                            {lift, kSurfaceLift}, {smooth_normal, kSurfaceLift}};
   float** const scalars[] = {&position_error, &shininess, &opacity};
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
   constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){}) + 1;

@@ -8,11 +8,11 @@ namespace spanray {
 
 // Fields that only some frames need.
 enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurfaceMirror = 4, kSurfaceFootprint = 8,
-                                kSurfaceDepth = 16, kSurfaceWeight = 32, kSurfaceAllFields = 63 };
+                                kSurfaceDepth = 16, kSurfaceWeight = 32, kSurfaceLift = 64, kSurfaceAllFields = 127 };
 
 // Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
-// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy), and t and weight where nobody reads
-// them, are 0.
+// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy, lift, smooth_normal), and t and
+// weight where nobody reads them, are 0.
 struct SurfaceBatch {
   int count = 0;
   uint32_t fields = 0;         // SurfaceFields that are written
@@ -26,6 +26,8 @@ struct SurfaceBatch {
   float* weight[3];            // barycentric, sum 1 within rounding, each in [0, 1]
   float* dpdx[3];              // differential of position by pixel x and y: the footprint
   float* dpdy[3];
+  float* lift[3];              // from position to where lifted shadow rays start, world units; zero: none do (shade/lift-inl.h)
+  float* smooth_normal[3];     // interpolated normal before maps bend it, of no certain length
   float *ambient[3], *diffuse[3], *specular[3], *emission[3], *mirror[3];  // material times textures
   float *shininess, *opacity;
   uint32_t *pixel, *ray, *primitive, *material;
