@@ -110,6 +110,7 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
   all.transparency = Transparency::kScene, all.textures = all.bump = true;
   // These are stages where they are cheap.
   all.normals = Normals::kInterpolated, all.powers = Powers::kFast, all.shading_rate = ShadingRate::k2x2;
+  all.shadow_terminator = ShadowTerminator::kLifted;
   all.antialiasing = Antialiasing::kMultisample;
   const std::vector<PlanLine> plan = plan_frame(scene, all);
   std::vector<Knob> knobs;
@@ -130,6 +131,10 @@ std::vector<Knob> make_knobs(const Scene& scene, const Settings& settings) {
   add_knob("shading-rate", "squares of 2x2 pixels that see one surface: shaded once, with their rays, or pixel by pixel",
            words_of(&Settings::shading_rate), "1x1", absent(plan, {"shading rate 2x2"}));
   add_knob("shadows", "how shadows are found", words_of(&Settings::shadows), "ray", absent(plan, {"shadow rays"}));
+  // What the scene asks for is the truth, as of transparency: off is what the triangles say, lifted what their normals say.
+  add_knob("shadow-terminator", "the edge of light on coarse meshes with smooth normals: of the triangles, or of what the normals describe",
+           words_of(&Settings::shadow_terminator), std::string(enum_text(settings.shadow_terminator)),
+           absent(plan, {"lifted shadow rays"}));
   add_knob("reflections", "what mirrors show", bounces, bounces.back().word, absent(plan, {"bounce rays"}));
   add_knob("bump", "height and normal maps", switch_of(&Settings::bump), "on", absent(plan, {"bump"}));
   // What the scene asks for is the truth: the others are another look.

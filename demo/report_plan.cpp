@@ -21,6 +21,7 @@ struct Switch {
 constexpr Switch kSwitches[] = {{"textures", "textures-off"},
                                 {"bump", "bump-off"},
                                 {"shadow rays", "shadows-none"},
+                                {"lifted shadow rays", "shadow-terminator-lifted"},
                                 {"bounce rays", "reflections-none"},
                                 {"composite", "transparency-none"},
                                 {"primary rays", "visibility-ray"},

@@ -36,7 +36,7 @@ std::string settings_toml(const Job& job, const Settings& settings, const std::s
   for (const auto& [key, value] : settings_words(settings)) {
     if (key == "size")
       text += "width = " + std::to_string(settings.width) + "\nheight = " + std::to_string(settings.height) + "\n";
-    else if (value == "on" || value == "off")
+    else if (key == "textures" || key == "bump")
       text += key + " = " + (value == "on" ? "true" : "false") + "\n";
     else if (value.find_first_not_of("-+.0123456789e") == std::string::npos)
       text += key + " = " + value + "\n";

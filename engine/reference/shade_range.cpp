@@ -19,6 +19,7 @@ bool any(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 struct RangeShader::Sums {
   Spread base, mirror, alpha;
   std::vector<Spread> lights;
+  std::vector<char> lifted;  // a light: some lifted shadow ray may find it
   std::vector<Ray> mirrored;
 };
 
@@ -83,9 +84,12 @@ bool RangeShader::add(const Bundle& bundle, const Piece& piece, const glm::dvec3
     const glm::dvec3 way = incidence(light, s.position).direction,
                      sum = reflected(world_.scene, settings_.shading, s, light, ray.line.origin);
     const double side = dot3(s.geometric, way), cosine = settings_.shading == Shading::kPhong ? dot3(s.normal, way) : side;
-    (sums.lights[i].*how)(side > 0 && finite(sum) ? sum : glm::dvec3(0));
-    // Highlights begin with a step where the light passes the horizon.
-    if (std::fabs(side) < kGrazing || std::fabs(cosine) < kGrazing)
+    const bool lifted = faces_lifted(s, light);
+    sums.lifted[i] |= lifted;
+    (sums.lights[i].*how)((side > 0 || lifted) && finite(sum) ? sum : glm::dvec3(0));
+    // Highlights begin with a step where the light passes the horizon; so does all light that lifted rays find.
+    const bool begins = s.lift != glm::dvec3(0) && std::fabs(dot3(s.smooth, way)) < kGrazing;
+    if (std::fabs(side) < kGrazing || std::fabs(cosine) < kGrazing || begins)
       sums.lights[i].corner(glm::dvec3(0)), sums.lights[i].corner(finite(sum) ? sum : glm::dvec3(0));
   }
   if (settings_.reflections != Reflections::kNone && any(s.mirror)) sums.mirrored.push_back(mirrored_ray(ray, s));
@@ -124,7 +128,7 @@ RangeShader::Lit RangeShader::lit(const Bundle& bundle, const Piece& piece, cons
 
 Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
   Sums sums;
-  sums.lights.resize(world_.lights.size());
+  sums.lights.resize(world_.lights.size()), sums.lifted.resize(world_.lights.size());
   const glm::dvec3 at = middle(piece.corner);
   Seen seen;
   if (!add(bundle, piece, at, {}, &Spread::middle, sums)) {  // seen edge-on to the last bit: nothing is known
@@ -149,7 +153,8 @@ Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
   for (size_t i = 0; i < world_.lights.size(); ++i) {
     ColorRange light = sums.lights[i].range(bundle.bends() ? kMoreInMirrors : 1.25);
     if (!any(light.high)) continue;
-    const Lit how = lit(bundle, piece, seen, world_.lights[i]);
+    Lit how = lit(bundle, piece, seen, world_.lights[i]);
+    if (how == Lit::kNo && sums.lifted[i]) how = Lit::kMaybe;  // beams know no lifted rays
     if (how == Lit::kNo) continue;
     if (how == Lit::kMaybe) light.low = glm::dvec3(0);
     seen.color = seen.color + light;
