@@ -55,12 +55,12 @@ void print_light(int indent, const LightTrace& trace, const SceneData& scene) {
   row(indent + 2, "irradiance, facing it", trace.irradiance);
   if (!trace.in_front) text_row(indent + 2, "behind the surface", "the geometric normal does not face the light");
   if (trace.has_ray) {
-    row(indent + 2, "shadow ray origin", trace.origin);
+    row(indent + 2, trace.lifted ? "shadow ray origin, lifted" : "shadow ray origin", trace.origin);
     row(indent + 2, "shadow ray direction", trace.direction);
     row(indent + 2, "shadow ray t_max", trace.t_max);
     if (trace.blocker != kNoPrimitive) text_row(indent + 2, "nearest on the way", "primitive " + std::to_string(trace.blocker));
   }
-  text_row(indent + 2, "lit", !trace.lit ? "0" : trace.lifted ? "1, by a shadow ray from position + lift" : "1");
+  text_row(indent + 2, "lit", trace.lit ? "1" : "0");
   row(indent + 2, "radiance if lit", trace.alone);
   row(indent + 2, "sum after it", trace.sum);
 }

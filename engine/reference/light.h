@@ -35,8 +35,8 @@ Way way_to(const Light& light, const glm::dvec3& origin);
 glm::dvec3 ambient_radiance(const SceneData& scene, const Surface& s);
 // May the light reach the surface at all, shadows aside?
 bool faces(const Surface& s, const Light& light);
-// ... and may it by a lifted shadow ray? That starts at position + lift, and counts only if the segment there is free as well, on to
-// kLiftReach of its length.
+// ... and may it by a lifted shadow ray? That starts at position + lift, where the segment up to there is free, on to kLiftReach of
+// its length; else the shadow ray starts on the surface.
 bool faces_lifted(const Surface& s, const Light& light);
 inline constexpr double kLiftReach = 1 + 0x1p-10;
 // Radiance toward `viewer` by one light that reaches the surface, W/(m^2 sr).

@@ -37,12 +37,12 @@ class Renderer {
     shadow.line = way.line, shadow.x = ray.x, shadow.y = ray.y;
     return !world_.opaque.any(way.line, 0, way.t_max, world_.blocks(shadow));
   }
-  // Of a light that the surface faces, in one of the two ways.
+  // Of a light that the surface faces, in one of the two ways: from above the triangle where it can.
   bool lit(const Ray& ray, const Surface& s, const Light& light) const {
     if (settings_.shadows == Shadows::kNone) return true;
     const glm::dvec3 start = start_above(s), lifted = s.position + s.lift;
-    if (faces(s, light) && free(ray, way_to(light, start))) return true;
-    return faces_lifted(s, light) && free(ray, way_to(light, lifted)) && free(ray, {{start, lifted - start}, kLiftReach});
+    if (faces_lifted(s, light) && free(ray, {{start, lifted - start}, kLiftReach})) return free(ray, way_to(light, lifted));
+    return faces(s, light) && free(ray, way_to(light, start));
   }
   glm::dvec3 shade(const Ray& ray, const Surface& s) const {
     glm::dvec3 sum = ambient_radiance(world_.scene, s);

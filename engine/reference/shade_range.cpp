@@ -153,8 +153,8 @@ Seen RangeShader::see(const Bundle& bundle, const Piece& piece) const {
   for (size_t i = 0; i < world_.lights.size(); ++i) {
     ColorRange light = sums.lights[i].range(bundle.bends() ? kMoreInMirrors : 1.25);
     if (!any(light.high)) continue;
-    Lit how = lit(bundle, piece, seen, world_.lights[i]);
-    if (how == Lit::kNo && sums.lifted[i]) how = Lit::kMaybe;  // beams know no lifted rays
+    // Beams know no lifted rays.
+    const Lit how = sums.lifted[i] && settings_.shadows == Shadows::kRay ? Lit::kMaybe : lit(bundle, piece, seen, world_.lights[i]);
     if (how == Lit::kNo) continue;
     if (how == Lit::kMaybe) light.low = glm::dvec3(0);
     seen.color = seen.color + light;

@@ -7,6 +7,7 @@ namespace spanray::reference {
 namespace {
 
 constexpr double kLeastLiftAngle = 0x1p-16;  // radians
+constexpr double kLiftShare = 0.75;
 
 double max_abs(const glm::dvec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
@@ -143,8 +144,8 @@ glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive)
   return dot3(blend, blend) > 1e-6 ? normalize3(blend, point.geometric) : point.geometric;
 }
 
-// To the point's projections onto the tangent planes at the corners, blended (Hanika 2021, "Hacking the Shadow Terminator"), where
-// it lies below them. Nothing for corners that agree, for what angles below 2^-16 would lift, and where the result is not above
+// Toward the point's projections onto the tangent planes at the corners, blended (Hanika 2021, "Hacking the Shadow Terminator"),
+// where it lies below them; kLiftShare of the way, as Phong tessellation goes (Boubekeur and Alexa 2008). Nothing for corners that agree, for what angles below 2^-16 would lift, and where the result is not above
 // the triangle.
 glm::dvec3 Surfaces::lift(const Point& point, uint32_t primitive, double clearance) const {
   const Triangle& triangle = scene_.triangles[primitive];
@@ -156,7 +157,7 @@ glm::dvec3 Surfaces::lift(const Point& point, uint32_t primitive, double clearan
     const glm::dvec3 from = point.position - point.v[k];
     const double below = -dot3(from, corner[k] * side);
     if (below > kLeastLiftAngle * (std::fabs(from.x) + std::fabs(from.y) + std::fabs(from.z)))
-      lift += corner[k] * (side * below * point.weight[k]);
+      lift += corner[k] * (side * below * point.weight[k] * kLiftShare);
   }
   return dot3(lift, point.geometric) > 8 * clearance ? lift : glm::dvec3(0);
 }

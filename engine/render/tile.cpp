@@ -304,7 +304,7 @@ size_t Level::memory_bytes() const {
 
 size_t TileWorker::memory_bytes() const {
   size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
-                 surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + lifted.memory_bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
+                 surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
                  fragment_surfaces.memory_bytes() + order.memory_bytes() + pixel_order.memory_bytes() + row_t.bytes() + row_primitive.bytes() +
                  encoded.bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + row_radiance[c].bytes();

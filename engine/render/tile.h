@@ -7,7 +7,6 @@
 #include "ray/bvh.h"
 #include "render/coarse_quads.h"
 #include "render/hit_order.h"
-#include "render/lifted_light.h"
 #include "render/pixel_order.h"
 #include "render/stage_clock.h"
 #include "render/tile_samples.h"
@@ -60,7 +59,6 @@ struct TileWorker {
   // Scratch of one batch being lit.
   RayBatch shadow_rays;
   AlignedBuffer<uint32_t> surface_of_ray, occluded, lit;
-  LiftedLight lifted;
   AlignedBuffer<float> radiance[3];
   HitBatch fragment_hits;
   AlignedBuffer<int32_t> fragment_slot;

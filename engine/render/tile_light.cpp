@@ -1,5 +1,6 @@
 #include "render/tile_light.h"
 
+#include "render/lifted_rays.h"
 #include "render/tile_ladder.h"
 
 namespace spanray {
@@ -20,16 +21,19 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
     const uint32_t seen = ~(w.occluded[static_cast<size_t>(i) / 32] >> (i % 32)) & 1u, surface = w.surface_of_ray[i];
     w.lit[surface / 32] |= seen << (surface % 32);
   }
-  if (job.frame.plan.lifted_rays)
-    w.counts.rays_shadow += find_lifted_light(job.frame, *job.opaque, surfaces, light, w.lifted, w.lit.data());
   w.clock.enter(stage);
   return w.lit.data();
 }
 
 }  // namespace
 
-void light_surfaces(const FrameJob& job, TileWorker& w, const SurfaceBatch& surfaces, const HitBatch& hits, bool primary) {
+void light_surfaces(const FrameJob& job, TileWorker& w, SurfaceBatch& surfaces, const HitBatch& hits, bool primary) {
   const TileStage stage = w.clock.enter(TileStage::kShade);
+  if (job.frame.plan.lifted_rays && job.frame.plan.shadow_rays) {
+    const TileStage shade = w.clock.enter(TileStage::kShadowRays);
+    w.counts.rays_shadow += keep_free_lifts(job.frame, *job.opaque, surfaces, w.shadow_rays, w.surface_of_ray, w.occluded);
+    w.clock.enter(shade);
+  }
   float* radiance[3];
   for (int c = 0; c < 3; ++c) {
     w.radiance[c].resize(static_cast<size_t>(surfaces.count) + 64);  // whole vectors are written

@@ -14,7 +14,7 @@ struct LightTrace {
   bool in_front = false;                   // the light may reach the surface: only then is a shadow ray made
   bool has_ray = false;                    // shadow rays are part of the plan, and this surface got one
   float origin[3] = {}, direction[3] = {}, t_max = 0;
-  bool lifted = false;                     // no light by that ray, but by one from position + lift
+  bool lifted = false;                     // that ray starts at position + lift
   bool lit = true;
   uint32_t blocker = 0xffffffffu;          // nearest primitive on the way to the light, if a closest-hit ray finds one
   float to_light[3] = {}, irradiance[3] = {};  // at the position: unit direction, W/m^2 on a surface that faces the light

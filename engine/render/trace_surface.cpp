@@ -1,7 +1,7 @@
 #include "render/trace_surface.h"
 
 #include "catalog/scalar.h"
-#include "render/lifted_light.h"
+#include "render/lifted_rays.h"
 
 namespace spanray {
 namespace {
@@ -45,15 +45,10 @@ LightTrace trace_light(const Frame& frame, const Bvh& opaque, const HitBatch& hi
       trace_any(frame, opaque, rays, answer.data());
       lit[0] = ~answer[0] & 1u;
       for (int k = 0; k < 3; ++k) trace.origin[k] = rays.origin[k][0], trace.direction[k] = rays.direction[k][0];
-      trace.t_max = rays.t_max[0];
+      trace.t_max = rays.t_max[0], trace.lifted = rays.from[0] == kNoPrimitive;
       answer.assign(kLanePadding, kNoPrimitive);
       trace_closest(frame, opaque, rays, answer.data());
       trace.blocker = answer[0];
-    }
-    if (frame.plan.lifted_rays && lit[0] == 0) {
-      LiftedLight scratch;
-      find_lifted_light(frame, opaque, s, index, scratch, lit.data());
-      trace.lifted = lit[0] != 0;
     }
   }
   trace.lit = lit[0] != 0;
@@ -71,6 +66,11 @@ SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch
   SurfaceTrace trace;
   if (hits.count == 0) return trace;
   resolve_surfaces(frame, hits, s);
+  if (frame.plan.lifted_rays && frame.plan.shadow_rays) {
+    RayBatch rays;
+    AlignedBuffer<uint32_t> surface_of_ray, blocked;
+    keep_free_lifts(frame, opaque, s, rays, surface_of_ray, blocked);
+  }
   trace.valid = s.valid[0] != 0;
   trace.primitive = s.primitive[0], trace.material = s.material[0];
   trace.t = s.t[0], trace.position_error = s.position_error[0], trace.shininess = s.shininess[0], trace.opacity = s.opacity[0];

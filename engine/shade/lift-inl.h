@@ -18,13 +18,16 @@ namespace surface_lanes {
 inline constexpr float kLeastLiftAngle = 0x1p-16f;
 // Least height above the triangle, in units of position_error: offset_origin() (light_rays_kernel.cpp) stays below it.
 inline constexpr float kLeastLift = 8.0f;
+// How far up to those planes: the share that Phong tessellation takes (Boubekeur and Alexa 2008). On a sphere, half would be the sphere
+// itself; the rest is room for surfaces that are no spheres. Measured in docs/decisions/0014-shadow-terminator.md.
+inline constexpr float kLiftShare = 0.75f;
 inline constexpr float kMostLift = 0x1p100f;  // world units: starts of rays stay finite
 
 // Lift and smooth normal of stored entries.
-// Source:   Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4: the point's projections onto the tangent
-//           planes at the corners, where it lies below them, blended by its weights.
+// Source:   Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4: up to the point's projections onto the
+//           tangent planes at the corners, where it lies below them, blended by its weights; kLiftShare of the way.
 // Output:   lift zero where the corners' normals agree in all bits, where the surface is not convex, and where the result would not
-//           lie clearly above the triangle. On a sphere it is twice the distance from the triangle to the sphere.
+//           lie clearly above the triangle.
 // Contract: unfused, a function of the stored surface and its triangle alone.
 [[maybe_unused]] static HWY_NOINLINE void store_lift(const Frame& frame, const SurfaceBatch& out, int at, const HitLanes& hits) {
   const TriangleLanes t = load_triangles(*frame.scene, hits);
@@ -44,7 +47,7 @@ inline constexpr float kMostLift = 0x1p100f;  // world units: starts of rays sta
     const V3f n = select(away, -normal[j], normal[j]), from = position - field(j, 0);
     const F32 below = -dot(from, n), reach = abs_(from.x) + abs_(from.y) + abs_(from.z);
     const Mask lifted = below > reach * f32(kLeastLiftAngle) + (error + error);
-    lift = lift + n * (select(lifted, below, zero) * weight[j]);
+    lift = lift + n * (select(lifted, below, zero) * weight[j] * f32(kLiftShare));
     blend = blend + n * weight[j];
   }
   const Mask good = smooth & (dot(lift, geometric) > error * f32(kLeastLift)) & (max_abs(lift) < f32(kMostLift));

@@ -11,14 +11,8 @@ void make_shadow_rays(const Frame& frame, const SurfaceBatch& surfaces, int ligh
   kMakeShadowRays[isa_index(frame.isa)](frame, surfaces, light, rays, surface_of_ray);
 }
 
-void make_lifted_rays(const Frame& frame, const SurfaceBatch& surfaces, int light, const uint32_t* lit, RayBatch& rays,
-                      AlignedBuffer<uint32_t>& surface_of_ray) {
-  kMakeLiftedRays[isa_index(frame.isa)](frame, surfaces, light, lit, rays, surface_of_ray);
-}
-
-void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, const uint32_t* of, RayBatch& rays,
-                    AlignedBuffer<uint32_t>& surface_of_ray) {
-  kMakeLiftRays[isa_index(frame.isa)](frame, surfaces, of, rays, surface_of_ray);
+void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
+  kMakeLiftRays[isa_index(frame.isa)](frame, surfaces, rays, surface_of_ray);
 }
 
 void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]) {

@@ -25,17 +25,14 @@ class LitVertexCache {
 };
 
 // For each valid surface that `light` may reach (in front of it by the geometric normal): one ray from the surface, origin moved off
-// it by the error bound, to the light, appended to rays; surface_of_ray[i] names the surface of ray i.
+// it by the error bound, to the light, appended to rays; surface_of_ray[i] names the surface of ray i. With plan.lifted_rays also where the
+// interpolated normal of a surface with a lift faces the light; those rays start at position + lift and leave no triangle.
 void make_shadow_rays(const Frame& frame, const SurfaceBatch& surfaces, int light, RayBatch& rays,
                       AlignedBuffer<uint32_t>& surface_of_ray);
 
-// With plan.lifted_rays: a second chance for surfaces without a bit in `lit` whose interpolated normal faces the light: a ray to it from
-// above the triangle (SurfaceBatch::lift). It counts only where the way up is free as well, which the second function asks for the
-// surfaces with a bit in `of`: nothing may hide between a triangle and where its rays start. Both replace what was in rays.
-void make_lifted_rays(const Frame& frame, const SurfaceBatch& surfaces, int light, const uint32_t* lit, RayBatch& rays,
-                      AlignedBuffer<uint32_t>& surface_of_ray);
-void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, const uint32_t* of, RayBatch& rays,
-                    AlignedBuffer<uint32_t>& surface_of_ray);
+// With plan.lifted_rays, before the shadow rays of any light: from each surface that may want some of those lifted, the segment to where
+// they would start (SurfaceBatch::lift). Surfaces that something hides there must lose their lift: else light would pass through it.
+void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray);
 
 // radiance[c][i] = ambient + emission of surface i. Writes all count entries (0 for invalid ones).
 void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]);

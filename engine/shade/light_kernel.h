@@ -29,11 +29,7 @@ using MakeShadowRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfac
                                   AlignedBuffer<uint32_t>& surface_of_ray);
 extern const MakeShadowRaysFn kMakeShadowRays[kIsaCount];
 
-using MakeLiftedRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, int light, const uint32_t* lit, RayBatch& rays,
-                                  AlignedBuffer<uint32_t>& surface_of_ray);
-extern const MakeLiftedRaysFn kMakeLiftedRays[kIsaCount];
-
-using MakeLiftRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, const uint32_t* of, RayBatch& rays,
+using MakeLiftRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, RayBatch& rays,
                                 AlignedBuffer<uint32_t>& surface_of_ray);
 extern const MakeLiftRaysFn kMakeLiftRays[kIsaCount];
 

@@ -36,85 +36,75 @@ HWY_INLINE V3 offset_origin(const V3& position, const V3& n, F32 error) {
 
 HWY_INLINE void store3(const V3& v, float out[3][kLanes]) { v.x.store(out[0]), v.y.store(out[1]), v.z.store(out[2]); }
 
-struct ShadowRay { V3 origin, direction; F32 t_max; };
+struct ShadowRay { V3 origin, direction; F32 t_max; I32 from; };
 
-// The rays of active lanes of surfaces i .., as rays n and on. kLeaves: they leave the surfaces' triangles.
-template <bool kLeaves>
+// The rays of active lanes of surfaces i .., as rays n and on.
 HWY_INLINE void append(const SurfaceBatch& s, int i, Mask active, const ShadowRay& ray, RayBatch& rays,
                        AlignedBuffer<uint32_t>& surface_of_ray, int& n) {
   float origin[3][kLanes], direction[3][kLanes], t_max[kLanes];
+  uint32_t from[kLanes];
   store3(ray.origin, origin);
   store3(ray.direction, direction);
   ray.t_max.store(t_max);
+  ray.from.store(from);
   for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
     const int k = __builtin_ctz(bits);
     for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
     rays.t_max[n] = t_max[k];
     rays.pixel[n] = s.pixel[i + k];
-    if constexpr (kLeaves) rays.from[n] = s.primitive[i + k];
+    rays.from[n] = from[k];
     surface_of_ray[n++] = static_cast<uint32_t>(i + k);
   }
 }
 
+void resize_rays(int n, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
+  rays.resize(n, false);
+  rays.from.resize(static_cast<size_t>(n));
+  surface_of_ray.resize(static_cast<size_t>(n));
+}
+
 // Shadow rays of one light, appended in order of surfaces.
 // Input:    Phong shading leaves out surfaces whose shading normal faces away; interpolated light (Gouraud) has no such rule.
-// Contract: a surface without a ray gets nothing from this light, whatever its bit says.
+// Contract: a surface without a ray gets nothing from this light, whatever its bit says. Rays that start above their triangle may meet
+//           it like any other: it hides light that comes from far enough behind.
 template <class Kind>
 void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, RayBatch& rays,
                  AlignedBuffer<uint32_t>& surface_of_ray) {
   const LightLanes lanes = broadcast_light(light);
   const bool by_normal = frame.settings.shading == Shading::kPhong;
   int n = rays.count;
-  rays.resize(n + s.count, false);
-  rays.from.resize(static_cast<size_t>(n + s.count));
-  surface_of_ray.resize(static_cast<size_t>(n + s.count));
+  resize_rays(n + s.count, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, nullptr);
     if (!any(active)) continue;
     const V3 position = load3(s.position, i);
     const Incidence incidence = Kind::incidence(lanes, position);
-    active = active & in_front(s, i, incidence);
+    active = active & reached(frame, s, i, incidence, nullptr);
     if (by_normal) active = active & (formula::dot(load3(s.normal, i), incidence.direction) > F32::zero());
     if (!any(active)) continue;
-    const V3 from = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
-    const Segment segment = Kind::segment(lanes, from);
-    append<true>(s, i, active, {from, segment.direction, segment.t_max}, rays, surface_of_ray, n);
+    V3 start = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
+    I32 from = I32::load(s.primitive + i);
+    if (frame.plan.lifted_rays) {
+      const Mask lifted = in_front_lifted(s, i, incidence);
+      start = select3(lifted, position + load3(s.lift, i), start);
+      from = select(lifted, i32(kNoPrimitive), from);
+    }
+    const Segment segment = Kind::segment(lanes, start);
+    append(s, i, active, {start, segment.direction, segment.t_max, from}, rays, surface_of_ray, n);
   }
-  rays.resize(n, false);
-  rays.from.resize(static_cast<size_t>(n));
-  surface_of_ray.resize(static_cast<size_t>(n));
+  resize_rays(n, rays, surface_of_ray);
 }
 
-// Room for as many rays as there are surfaces, and none yet.
-void start_rays(const SurfaceBatch& s, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
-  rays.resize(s.count, false);
-  rays.from.resize(0);
-  surface_of_ray.resize(static_cast<size_t>(s.count));
-}
-
-// Of surfaces that shadow_rays() found no light for: rays from above their triangles. These leave no triangle: their own may stand
-// in the way like any other.
-template <class Kind>
-void lifted_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, const uint32_t* lit, RayBatch& rays,
-                 AlignedBuffer<uint32_t>& surface_of_ray) {
+// Surfaces i .. that want lifted shadow rays to one light.
+HWY_INLINE Mask want_lift(const SurfaceBatch& s, int i, const V3& position, const Light& light) {
   const LightLanes lanes = broadcast_light(light);
-  const bool by_normal = frame.settings.shading == Shading::kPhong;
-  start_rays(s, rays, surface_of_ray);
-  int n = 0;
-  for (int i = 0; i < s.count; i += kLanes) {
-    Mask active = and_not(active_lanes(s, i, lit), active_lanes(s, i, nullptr));
-    if (!any(active)) continue;
-    const V3 position = load3(s.position, i);
-    const Incidence incidence = Kind::incidence(lanes, position);
-    active = active & in_front_lifted(s, i, incidence);
-    if (by_normal) active = active & (formula::dot(load3(s.normal, i), incidence.direction) > F32::zero());
-    if (!any(active)) continue;
-    const V3 from = position + load3(s.lift, i);
-    const Segment segment = Kind::segment(lanes, from);
-    append<false>(s, i, active, {from, segment.direction, segment.t_max}, rays, surface_of_ray, n);
+  switch (light.kind) {
+#define SPANRAY_CATALOG_ENTRY(index, name) \
+  case index: return in_front_lifted(s, i, LightKind_##name::incidence(lanes, position));
+#include "catalog_lights_list.inc"
+#undef SPANRAY_CATALOG_ENTRY
   }
-  rays.resize(n, false);
-  surface_of_ray.resize(static_cast<size_t>(n));
+  return first_lanes(0);
 }
 
 // Unit direction of the ray that hit, and its differentials by pixel x and y.
@@ -180,34 +170,23 @@ void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light
   }
 }
 
-void make_lifted_rays_entry(const Frame& frame, const SurfaceBatch& s, int light, const uint32_t* lit, RayBatch& rays,
-                            AlignedBuffer<uint32_t>& surface_of_ray) {
-  const Light& l = light_of(frame, light);
-  switch (l.kind) {
-#define SPANRAY_CATALOG_ENTRY(index, name) \
-  case index: return lifted_rays<LightKind_##name>(frame, s, l, lit, rays, surface_of_ray);
-#include "catalog_lights_list.inc"
-#undef SPANRAY_CATALOG_ENTRY
-  }
-}
-
-// From the surfaces up to where their lifted rays start, and on by 2^-10 of the way: what lies at that place itself is met by this
-// ray, since a ray meets nothing where it starts.
-void make_lift_rays_entry(const Frame&, const SurfaceBatch& s, const uint32_t* of, RayBatch& rays,
-                          AlignedBuffer<uint32_t>& surface_of_ray) {
-  start_rays(s, rays, surface_of_ray);
-  rays.from.resize(static_cast<size_t>(s.count));
+// From surfaces up to where their lifted rays start, and on by 2^-10 of the way: what lies at that place itself is met by this ray,
+// since a ray meets nothing where it starts.
+void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
   int n = 0;
+  resize_rays(s.count, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
-    const Mask active = active_lanes(s, i, of);
-    if (!any(active)) continue;
     const V3 position = load3(s.position, i);
-    const V3 from = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
-    append<true>(s, i, active, {from, position + load3(s.lift, i) - from, f32(1.0f + 0x1p-10f)}, rays, surface_of_ray, n);
+    Mask active = first_lanes(0);
+    for (int light = 0; light < static_cast<int>(frame.scene->lights.size()); ++light)
+      active = active | want_lift(s, i, position, light_of(frame, light));
+    active = active & active_lanes(s, i, nullptr);
+    if (!any(active)) continue;
+    const V3 start = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
+    const V3 way = position + load3(s.lift, i) - start;
+    append(s, i, active, {start, way, f32(1.0f + 0x1p-10f), I32::load(s.primitive + i)}, rays, surface_of_ray, n);
   }
-  rays.resize(n, false);
-  rays.from.resize(static_cast<size_t>(n));
-  surface_of_ray.resize(static_cast<size_t>(n));
+  resize_rays(n, rays, surface_of_ray);
 }
 
 // Mirror rays about the shading normal, appended in order of surfaces.
@@ -261,7 +240,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace spanray {
 const MakeShadowRaysFn kMakeShadowRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_shadow_rays_entry);
-const MakeLiftedRaysFn kMakeLiftedRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_lifted_rays_entry);
 const MakeLiftRaysFn kMakeLiftRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_lift_rays_entry);
 const MakeBounceRaysFn kMakeBounceRays[kIsaCount] = SPANRAY_KERNEL_TABLE(make_bounce_rays_entry);
 }  // namespace spanray
