@@ -235,6 +235,15 @@ TEST_F(ProgramRender, WhyDerivesThePixelsOfThePicture) {
     }
   EXPECT_GE(squares, 6);
   EXPECT_LT(squares, 16);
+  // Shadow rays that start above coarse triangles.
+  int lifted = 0;
+  for (const char* pixel : {"30,40", "40,24", "20,30", "50,36", "66,40", "80,30", "28,20", "44,44"}) {
+    const Ran ran = run({"why", SPANRAY_SOURCE_DIR "/assets/columns.toml", pixel, "--size", "96x64", "--shadow-terminator", "lifted"});
+    EXPECT_EQ(0, ran.code) << pixel << " " << ran.error << ran.out;
+    EXPECT_NE(std::string::npos, ran.out.find("equal to the derivation, bit for bit")) << ran.out;
+    lifted += ran.out.find("shadow ray origin, lifted") != std::string::npos;
+  }
+  EXPECT_GE(lifted, 1);
   const Ran outside = run({"why", scene_, "96,0", "--size", "96x64"});
   EXPECT_EQ(2, outside.code);
   EXPECT_NE(std::string::npos, outside.error.find("96x64"));

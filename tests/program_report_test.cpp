@@ -171,6 +171,7 @@ TEST_F(ReportKnobs, KnobsThatTheSceneHasNoUseForSayWhy) {
   EXPECT_EQ(absent["powers"], "no lit material has a highlight");
   EXPECT_EQ(absent["normals"], "each triangle has one normal");
   EXPECT_EQ(absent["shading-rate"], "");
+  EXPECT_EQ(absent["shadow-terminator"], "each triangle has one normal");
   for (const char* name : {"filter", "textures", "bump", "transparency"})
     EXPECT_NE(absent[name].find("no material"), std::string::npos) << name;
 }

@@ -61,6 +61,7 @@ TEST_F(ProgramUsage, WrongUsageNamesItselfAndExitsWith2) {
   expect_usage({"render", scene_, "--out", "a.png", "--normals", "interpoled"}, {"--normals", "did you mean 'interpolated'"});
   expect_usage({"render", scene_, "--out", "a.png", "--powers", "exakt"}, {"--powers", "fast|exact"});
   expect_usage({"render", scene_, "--out", "a.png", "--shading-rate", "4x4"}, {"--shading-rate", "2x2|1x1"});
+  expect_usage({"render", scene_, "--out", "a.png", "--shadow-terminator", "on"}, {"--shadow-terminator", "off|lifted"});
   expect_usage({"render", scene_, "more", "--out", "a.png"}, {"more"});
   expect_usage({"render"}, {"SCENE"});
   expect_usage({"render", scene_}, {"nothing to do"});

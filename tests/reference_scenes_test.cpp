@@ -61,6 +61,7 @@ TEST_P(ReferenceScenes, AgreeWithTheFastPath) {
 }
 
 void as_it_is(Settings&) {}
+void lifted(Settings& s) { s.shadow_terminator = ShadowTerminator::kLifted; }
 
 INSTANTIATE_TEST_SUITE_P(
     Shipped, ReferenceScenes,
@@ -84,6 +85,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"spheres, culled, one bounce", "spheres", [](Settings& s) { s.culling = Culling::kBack, s.max_bounces = 1; },
              0.002, 0.0002, 0.96},
         Case{"gauze, culled", "gauze", [](Settings& s) { s.culling = Culling::kBack; }, 0.002, 0.0002, 0.96},
+        Case{"spheres, lifted", "spheres", lifted, 0.002, 0.0002, 0.96},
+        Case{"hall, lifted", "hall", lifted, 0.002, 0.0002, 0.97}, Case{"glass, lifted", "glass", lifted, 0.002, 0.0002, 0.96},
+        Case{"columns, lifted, Gouraud", "columns",
+             [](Settings& s) { lifted(s), s.shading = Shading::kGouraud; }, 0.002, 0.0002, 0.96},
+        Case{"hall, lifted, no shadows", "hall", [](Settings& s) { lifted(s), s.shadows = Shadows::kNone; }, 0.002, 0.0002, 0.97},
         Case{"hall, plain", "hall", [](Settings& s) { s.textures = s.bump = false, s.shadows = Shadows::kNone; }, 0.002, 0.0002,
              0.97}));
 

@@ -64,6 +64,7 @@ filter = "bilinear"
 normals = "interpolated"
 powers = "fast"
 shading_rate = "2x2"
+shadow_terminator = "lifted"
 transparency = "screen-door"
 culling = "back"
 max_bounces = 7
@@ -112,6 +113,7 @@ opacity = 1
   EXPECT_EQ(s.settings.normals, Normals::kInterpolated);
   EXPECT_EQ(s.settings.powers, Powers::kFast);
   EXPECT_EQ(s.settings.shading_rate, ShadingRate::k2x2);
+  EXPECT_EQ(s.settings.shadow_terminator, ShadowTerminator::kLifted);
   EXPECT_EQ(s.settings.max_bounces, 7);
   EXPECT_FALSE(s.settings.textures || s.settings.bump);
   EXPECT_EQ(s.settings.width * 1000 + s.settings.height, 64048);
@@ -176,6 +178,7 @@ TEST_F(SceneFileTest, EveryMistakeIsNamedWithItsLine) {
       {obj + "[technique]\npowers = \"quick\"\n", 3, "fast, exact"},
       {obj + "[technique]\nshading_rate = 2\n", 3, "must be a string, not an integer"},
       {obj + "[technique]\nshading_rate = \"4x4\"\n", 3, "2x2, 1x1"},
+      {obj + "[technique]\nshadow_terminator = false\n", 3, "must be a string, not a boolean"},
       {obj + "[technique]\nshadows = true\n", 3, "must be a string, not a boolean"},
       {obj + "[technique]\nmax_bounces = 65\n", 3, "0 to 64"},
       {obj + "[technique]\nmax_bounces = 1.5\n", 3, "must be an integer, not a number"},

@@ -31,6 +31,7 @@ TEST(SettingsText, EveryValueHasOneWordAndTheWordGivesItBack) {
   check_round_trip<Powers>(2);
   check_round_trip<ShadingRate>(2);
   check_round_trip<TreeQuality>(2);
+  check_round_trip<ShadowTerminator>(2);
 }
 
 TEST(SettingsText, WordsOfTheCommandLine) {
@@ -39,6 +40,7 @@ TEST(SettingsText, WordsOfTheCommandLine) {
   EXPECT_EQ(enum_choices<Normals>(), "interpolated|renormalized");
   EXPECT_EQ(enum_choices<Powers>(), "fast|exact");
   EXPECT_EQ(enum_choices<ShadingRate>(), "2x2|1x1");
+  EXPECT_EQ(enum_choices<ShadowTerminator>(), "off|lifted");
   EXPECT_EQ(enum_from_text<Transparency>("screen-door"), Transparency::kScreenDoor);
   EXPECT_FALSE(enum_from_text<Shading>("Phong").has_value());
 }

@@ -44,7 +44,7 @@ const std::vector<HardCase>& hard_cases() {
       {"S5", "normalized reflectances: albedo at most 1.001, reciprocal", "1.001", s5_albedo},
       {"S6", "Gouraud is Phong at the vertices", "1/255", s6_gouraud},
       {"S7", "bump of amplitude 0 changes no bit; normals end at the horizon", "0 wrong", s7_bump},
-      {"S8", "terminator of low-polygon smooth spheres with ray shadows: error falls with triangles", "reported",
+      {"S8", "terminator of low-polygon smooth spheres with ray shadows: error falls with triangles; lifted rays halve it", "reported",
        s8_terminator},
       {"Y1", "rays at vertices, edges and interiors of a closed mesh: no miss", "0 wrong", y1_watertight},
       {"Y2", "scales 2^-20 to 2^20: identical hits; decimal scales: no miss", "0 wrong", y2_scales},

@@ -63,6 +63,12 @@ inline std::vector<GoldenFrame> golden_frames() {
   });
   add("spheres_fast", "spheres.toml", 0, [](Settings& s) { s.normals = Normals::kInterpolated, s.powers = Powers::kFast; });
   add("columns_fast_gouraud", "columns.toml", 0, [](Settings& s) { s.shading = Shading::kGouraud, s.powers = Powers::kFast; });
+  const auto lifted = [](Settings& s) { s.shadow_terminator = ShadowTerminator::kLifted; };
+  add("hall_lifted", "hall.toml", 0, lifted);
+  add("columns_lifted_gouraud_rays", "columns.toml", 0, [=](Settings& s) {
+    lifted(s);
+    s.width = 197, s.height = 131, s.visibility = Visibility::kRay, s.shading = Shading::kGouraud, s.samples = 4;
+  });
   return frames;
 }
 

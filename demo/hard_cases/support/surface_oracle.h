@@ -86,6 +86,7 @@ inline std::vector<BatchField> batch_fields(const SurfaceBatch& s) {
   vec("position.", s.position), vec("geometric_normal.", s.geometric_normal), vec("normal.", s.normal), vec("view.", s.view);
   vec("weight.", s.weight), vec("dpdx.", s.dpdx), vec("dpdy.", s.dpdy), vec("ambient.", s.ambient), vec("diffuse.", s.diffuse);
   vec("specular.", s.specular), vec("emission.", s.emission), vec("mirror.", s.mirror);
+  vec("lift.", s.lift), vec("smooth_normal.", s.smooth_normal);
   list.push_back({"position_error", s.position_error}), list.push_back({"t", s.t});
   list.push_back({"shininess", s.shininess}), list.push_back({"opacity", s.opacity});
   const auto word = [&](const char* name, const uint32_t* w) { list.push_back({name, reinterpret_cast<const float*>(w)}); };
@@ -161,7 +162,7 @@ inline int32_t add_texture(SceneData& scene, int width, int height, const std::f
 
 inline void plan_all(Frame& frame) {
   PlanFlags& p = frame.plan;
-  p.textures = p.bump = p.emission = p.ambient = p.specular = p.bounces = p.masks = p.translucents = true;
+  p.textures = p.bump = p.emission = p.ambient = p.specular = p.bounces = p.masks = p.translucents = p.lifted_rays = true;
   p.maps = kAllMaps;
 }
 

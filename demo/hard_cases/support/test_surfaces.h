@@ -30,7 +30,7 @@ inline glm::dvec3 random_color(TestRandom& random, double high = 1) {
 inline std::vector<uint32_t*> all_fields(const SurfaceBatch& s) {
   std::vector<uint32_t*> fields;
   float* const* const vectors[] = {s.position, s.geometric_normal, s.normal, s.view, s.weight, s.dpdx, s.dpdy,
-                                   s.ambient, s.diffuse, s.specular, s.emission, s.mirror};
+                                   s.ambient, s.diffuse, s.specular, s.emission, s.mirror, s.lift, s.smooth_normal};
   for (float* const* v : vectors)
     for (int k = 0; k < 3; ++k) fields.push_back(reinterpret_cast<uint32_t*>(v[k]));
   for (float* f : {s.position_error, s.t, s.shininess, s.opacity}) fields.push_back(reinterpret_cast<uint32_t*>(f));
