@@ -19,7 +19,7 @@ inline constexpr float kLeastLiftAngle = 0x1p-16f;
 // Least height above the triangle, in units of position_error: offset_origin() (light_rays_kernel.cpp) stays below it.
 inline constexpr float kLeastLift = 8.0f;
 // How far up to those planes: the share that Phong tessellation takes (Boubekeur and Alexa 2008). On a sphere, half would be the sphere
-// itself; the rest is room for surfaces that are no spheres. Measured in docs/decisions/0014-shadow-terminator.md.
+// itself; the rest is room for surfaces that are no spheres. Measured in docs/decisions/0015-shadow-terminator.md.
 inline constexpr float kLiftShare = 0.75f;
 inline constexpr float kMostLift = 0x1p100f;  // world units: starts of rays stay finite
 

@@ -26,12 +26,9 @@ enum class Powers { kFast, kExact };
 enum class ShadingRate { k2x2, k1x1 };
 // The tree that rays go down: built fast, or built to be traced fast (ray/bvh_high.h). No picture depends on it.
 enum class TreeQuality { kFast, kHigh };
-// Where light ends on triangles with interpolated normals: shadow rays start on the flat triangle and nothing comes from behind it,
-// so the edge of light is one of blocks; or rays that find no light try again from above the triangle, where the curved surface
-// is that the normals speak of (Hanika 2021; docs/decisions/0014-shadow-terminator.md). Light is only ever added.
 // Where light ends on triangles with interpolated normals. Off: shadow rays start on the flat triangle and nothing comes from behind
 // it, so the edge of light is one of blocks. Lifted: they start above it, where the curved surface is that the normals speak of
-// (Hanika 2021; docs/decisions/0014-shadow-terminator.md).
+// (Hanika 2021; docs/decisions/0015-shadow-terminator.md).
 enum class ShadowTerminator { kOff, kLifted };
 
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
