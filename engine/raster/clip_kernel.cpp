@@ -6,6 +6,7 @@
 
 #include "frame/frame.h"
 #include "raster/clip_kernel.h"
+#include "raster/clusters.h"
 #include "raster/fixed_point.h"
 #include "simd/dispatch.h"
 
@@ -25,15 +26,29 @@ class RangeClipper {
   RangeClipper(const Frame& frame, const ScreenVertices& vertices, BinChunk& chunk, FrameCounts& counts)
       : frame_(frame), scene_(*frame.scene), vertices_(vertices), chunk_(chunk), counts_(counts) {}
 
-  void run(uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin; first < end; first += kLanes) {
-      cull(first, static_cast<int>(std::min<uint32_t>(kLanes, end - first)));
-      if (count_ >= kLanes) set_up(kLanes);
+  void run(uint32_t begin, uint32_t end, const uint8_t* fate) {
+    if (fate == nullptr) keep(begin, end);
+    for (uint32_t first = begin; fate != nullptr && first < end; first += kClusterTriangles) {
+      const uint32_t last = std::min(end, first + kClusterTriangles);
+      const uint8_t what = fate[first / kClusterTriangles];
+      if (what == kClusterKept) {
+        keep(first, last);
+        continue;
+      }
+      counts_.triangles_in += last - first;
+      (what == kClusterOutside ? counts_.triangles_outside : counts_.triangles_back_face) += last - first;
     }
     if (count_ > 0) set_up(count_);
   }
 
  private:
+  void keep(uint32_t begin, uint32_t end) {
+    for (uint32_t first = begin; first < end; first += kLanes) {
+      cull(first, static_cast<int>(std::min<uint32_t>(kLanes, end - first)));
+      if (count_ >= kLanes) set_up(kLanes);
+    }
+  }
+
   // What survives, packed. Room for what is left of one vector, and one more.
   struct Queue {
     alignas(64) int32_t primitive[32], vertex[3][32], x[3][32], y[3][32], tile_box[32];
@@ -190,8 +205,9 @@ class RangeClipper {
   alignas(64) Queue queue_ = {};
 };
 
-void clip_range(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end, BinChunk& chunk, FrameCounts& counts) {
-  RangeClipper(frame, vertices, chunk, counts).run(begin, end);
+void clip_range(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end, const uint8_t* fate, BinChunk& chunk,
+                FrameCounts& counts) {
+  RangeClipper(frame, vertices, chunk, counts).run(begin, end, fate);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

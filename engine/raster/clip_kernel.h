@@ -4,9 +4,10 @@
 
 namespace spanray {
 
-// Appends what is drawn of primitives [begin, end), and adds to counts.
-using ClipRangeFn = void (*)(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end, BinChunk& chunk,
-                             FrameCounts& counts);
+// Appends what is drawn of primitives [begin, end), and adds to counts. fate: ClusterFate of each cluster of the scene; begin is the first
+// primitive of one. nullptr: all are kept.
+using ClipRangeFn = void (*)(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end,
+                             const uint8_t* fate, BinChunk& chunk, FrameCounts& counts);
 extern const ClipRangeFn kClipRange[kIsaCount];
 
 // The same for a single primitive, which may need clipping (clip.cpp).

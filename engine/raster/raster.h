@@ -1,15 +1,19 @@
 // Visibility engine 1: the stages from world vertices to what each pixel of a tile sees. Called by render/ in this order.
 #pragma once
 #include "frame/frame.h"
+#include "raster/clusters.h"
 
 namespace spanray {
 
-// Vertices -> homogeneous pixels, snapped positions, outcodes. Parallel.
-void transform_vertices(const Frame& frame, ScreenVertices& out);
+// Vertices -> homogeneous pixels, snapped positions, outcodes. Parallel. With `fates`: only those blocks of vertices that clusters use which
+// are kept; what stands for the others is anything.
+void transform_vertices(const Frame& frame, ScreenVertices& out, const ClusterFates* fates = nullptr);
 
 // Triangles -> screen triangles, in chunks, in order of primitives: drops invalid ones, culls (outside, back faces, no area after
-// snapping), clips in double with canonical edges, sets up the depth plane. Parallel. Fills chunk.triangles and counts.
-void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts);
+// snapping), clips in double with canonical edges, sets up the depth plane. Parallel. Fills chunk.triangles and counts. With `fates`:
+// only looks at clusters that are kept, counts the others' triangles; chunk.triangles are the same.
+void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts,
+                    const ClusterFates* fates = nullptr);
 
 // Screen triangles -> lists by tile. Parallel. Conservative: a listed triangle need not cover a pixel of the tile.
 void bin_triangles(const Frame& frame, TileBins& bins);

@@ -71,16 +71,29 @@ namespace spanray {
 
 const TransformFn kTransformRange[kIsaCount] = SPANRAY_KERNEL_TABLE(transform_range);
 
-void transform_vertices(const Frame& frame, ScreenVertices& out) {
+void transform_vertices(const Frame& frame, ScreenVertices& out, const ClusterFates* fates) {
   constexpr size_t kChunk = 8192;
+  static_assert(kChunk % kBlockVertices == 0 && kBlockVertices % 16 == 0);
   const size_t n = frame.scene->vertices.size();
   const auto fit = [n](auto& buffer) {
     buffer.reserve(n + 16);  // whole vectors are written
     buffer.resize(n);
   };
   fit(out.x), fit(out.y), fit(out.w), fit(out.x_24_8), fit(out.y_24_8), fit(out.outcode);
+  const TransformFn transform = kTransformRange[isa_index(frame.isa)];
   frame.parallel->for_each((n + kChunk - 1) / kChunk, [&](size_t chunk, int) {
-    kTransformRange[isa_index(frame.isa)](frame, chunk * kChunk, std::min(n, (chunk + 1) * kChunk), out);
+    const size_t end = std::min(n, (chunk + 1) * kChunk);
+    if (fates == nullptr || fates->all_blocks) {
+      transform(frame, chunk * kChunk, end, out);
+      return;
+    }
+    const auto wanted = [&](size_t i) { return fates->block[i / kBlockVertices] != 0; };
+    for (size_t first = chunk * kChunk; first < end;) {
+      size_t last = first;
+      while (last < end && wanted(last)) last += kBlockVertices;
+      if (last > first) transform(frame, first, std::min(end, last), out);
+      for (first = last; first < end && !wanted(first);) first += kBlockVertices;
+    }
   });
 }
 

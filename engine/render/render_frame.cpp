@@ -46,6 +46,8 @@ struct Renderer::Impl {
   std::unique_ptr<PosedScene> posed;  // only where something moves
   uint64_t poses = 0;
   RayTrees trees;
+  std::unique_ptr<Clusters> clusters;  // of the scene at rest; none of a small one
+  ClusterFates fates;
   std::unique_ptr<LitVertexCache> lit_vertices;
   ScreenVertices vertices;
   TileBins bins;
@@ -57,7 +59,7 @@ struct Renderer::Impl {
     while (workers.size() < static_cast<size_t>(parallel->threads())) workers.push_back(std::make_unique<TileWorker>());
     if (scene.valid() && &scene.data() == &new_scene.data()) return;
     scene = Scene();  // nothing of it is left, should memory run out below
-    trees.clear(), lit_vertices.reset(), posed.reset();
+    trees.clear(), clusters.reset(), lit_vertices.reset(), posed.reset();
     use = find_scene_use(new_scene.data());
     if (!new_scene.data().motions.empty()) posed = std::make_unique<PosedScene>(new_scene.data());
     scene = new_scene;
@@ -69,9 +71,19 @@ struct Renderer::Impl {
   size_t memory_bytes() const {
     size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + trees.memory_bytes();
     if (posed) bytes += posed->memory_bytes();
+    if (clusters) bytes += clusters->memory_bytes() + fates.memory_bytes();
     if (lit_vertices) bytes += lit_vertices->memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
     return bytes;
+  }
+
+  // Which clusters this frame drops, or nullptr. They are made in the first frame that rasterizes a scene.
+  const ClusterFates* find_fates(const Frame& frame) {
+    if (!clusters && scene.data().triangles.size() > kFewTriangles)
+      clusters = std::make_unique<Clusters>(make_clusters(scene.data(), scene.data().moving_triangles, *parallel));
+    if (!clusters) return nullptr;
+    find_cluster_fates(frame, *clusters, fates);
+    return &fates;
   }
 
   FrameStats render(const Camera& camera, const Settings& settings, Framebuffer& out, const FrameRequest& request);
@@ -94,9 +106,13 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
 
   FrameCounts counts;
   if (plan.flags.raster) {
-    stats.ms.transform = timed_ms([&] { transform_vertices(frame, vertices); });
+    const ClusterFates* dropped = nullptr;
+    stats.ms.transform = timed_ms([&] {
+      dropped = find_fates(frame);
+      transform_vertices(frame, vertices, request.ladder == nullptr ? dropped : nullptr);  // the ladder hashes all of them
+    });
     if (request.ladder != nullptr) hash_vertices(vertices, *request.ladder);
-    stats.ms.clip = timed_ms([&] { clip_triangles(frame, vertices, bins, counts); });
+    stats.ms.clip = timed_ms([&] { clip_triangles(frame, vertices, bins, counts, dropped); });
     stats.ms.bin = timed_ms([&] { bin_triangles(frame, bins); });
   } else {
     counts.triangles_in = scene.data().triangles.size();

@@ -1,0 +1,348 @@
+// Clusters drop only what the tests of each triangle drop, and change nothing that is drawn: random patches of triangles at the borders of
+// the picture, at the near plane, edge-on, around the eye, at any scale and place.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "raster/cluster_kernel.h"
+#include "support/camera_at.h"
+#include "support/random.h"
+#include "support/raster_front_end.h"
+
+namespace spanray {
+namespace {
+
+using glm::dvec3;
+
+dvec3 unit(TestRandom& random) { return normalize3(random_point(random), dvec3(1, 0, 0)); }
+
+// Any turn, its rows perpendicular unit vectors.
+std::array<dvec3, 3> random_turn(TestRandom& random) {
+  const dvec3 a = unit(random), b = normalize3(cross3(a, unit(random)), dvec3(0, 1, 0));
+  return {a, b, cross3(a, b)};
+}
+
+void put(const dvec3& p, Vertex& v) {
+  for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(p[k]) + 0.0f;
+}
+
+// A scene of clusters that stand apart, each with vertices of its own: a strip of 64 triangles, bent or flat or crumpled, turned any way.
+class Patches {
+ public:
+  Patches(uint32_t seed, int clusters) : random_(seed) {
+    scene_ = make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+    scene_.vertices.resize(static_cast<size_t>(clusters) * kVertices), scene_.triangles.resize(static_cast<size_t>(clusters) * kClusterTriangles);
+    for (Vertex& v : scene_.vertices) v = Vertex{{0, 0, 0}, {0, 0, 1}, {0, 0}};
+  }
+  SceneData& scene() { return scene_; }
+
+  // Places all clusters anew about `middle`, where the camera may be, in units of `scale`.
+  void place(const dvec3& middle, double scale) {
+    for (size_t c = 0; c < scene_.triangles.size() / kClusterTriangles; ++c) place_one(c, middle, scale);
+  }
+
+ private:
+  static constexpr int kColumns = 32, kVertices = 2 * (kColumns + 1);
+
+  void connect(uint32_t c, uint32_t flip) {
+    const uint32_t first = c * kVertices;
+    for (uint32_t i = 0; i < kColumns; ++i) {
+      const uint32_t a = first + i, b = a + 1, d = a + kColumns + 1;
+      Triangle* const t = &scene_.triangles[c * kClusterTriangles + 2 * i];
+      t[0] = {{a, b, d}, flip}, t[1] = {{b, d + 1, d}, flip};
+      order_vertices(scene_.vertices, t[0]), order_vertices(scene_.vertices, t[1]);
+    }
+  }
+
+  void place_one(size_t c, const dvec3& middle, double scale) {
+    const auto turn = random_turn(random_);
+    const double size = scale * std::exp2(random_.uniform(-6, random_.below(8) ? 0 : 4));
+    const dvec3 center = middle + unit(random_) * (scale * std::exp2(random_.uniform(-4, 3)));
+    const double bend = random_.below(4) ? random_.uniform(-1.5, 1.5) * random_.uniform() : 0, rough = random_.below(3) ? 0 : random_.uniform(0, 0.1);
+    const double width = random_.below(4) ? random_.uniform(0, 1) : 1e-6;
+    Vertex* const v = &scene_.vertices[c * kVertices];
+    for (int row = 0; row < 2; ++row)
+      for (int i = 0; i <= kColumns; ++i) {
+        const double s = 2.0 * i / kColumns - 1, angle = s * bend;
+        const dvec3 local(bend == 0 ? s : std::sin(angle) / bend, (row - 0.5) * width, bend == 0 ? 0 : (std::cos(angle) - 1) / bend);
+        put(center + (turn[0] * local.x + turn[1] * local.y + turn[2] * (local.z + rough * random_.uniform(-1, 1))) * size, v[row * (kColumns + 1) + i]);
+      }
+    if (random_.below(8) == 0) std::memcpy(v[3].position, v[4].position, sizeof v->position);  // no area
+    if (random_.below(100) == 0) v[random_.below(kVertices)].position[random_.below(3)] = random_.below(2) ? std::nanf("") : INFINITY;
+    connect(static_cast<uint32_t>(c), random_.below(2) ? kTriangleFlipped : 0);
+  }
+
+  TestRandom random_;
+  SceneData scene_;
+};
+
+// What clip_triangles() makes, in order.
+std::vector<ScreenTriangle> drawn(const TileBins& bins) {
+  std::vector<ScreenTriangle> all;
+  for (const BinChunk& c : bins.chunks) all.insert(all.end(), c.triangles.begin(), c.triangles.end());
+  return all;
+}
+uint64_t sum(const FrameCounts& c) { return c.triangles_invalid + c.triangles_culled() + c.triangles_drawn; }
+
+struct Seen { uint64_t clusters = 0, outside = 0, back_face = 0; };
+
+// A vertex may be read only if it was transformed: the others stand as what would be seen.
+void poison(ScreenVertices& v, size_t n) {
+  for (AlignedBuffer<double>* a : {&v.x, &v.y, &v.w}) a->resize(0), a->assign(n, 1.0);
+  v.x_24_8.resize(0), v.x_24_8.assign(n, 128), v.y_24_8.resize(0), v.y_24_8.assign(n, 128), v.outcode.resize(0), v.outcode.assign(n, 0);
+}
+
+// The frame with and without clusters.
+void compare(const SceneData& scene, const Camera& camera, const Settings& settings, const Clusters& clusters, Seen& seen) {
+  const auto t = make_test_frame(SceneData(), camera, settings);
+  t->material_flags.assign(1, 0);
+  Frame& frame = t->frame;
+  frame.scene = &scene, frame.material_flags = t->material_flags.data();
+  FrontEnd all, some;
+  transform_vertices(frame, all.vertices);
+  clip_triangles(frame, all.vertices, all.bins, all.counts);
+  ClusterFates fates;
+  find_cluster_fates(frame, clusters, fates);
+  poison(some.vertices, frame.scene->vertices.size());
+  transform_vertices(frame, some.vertices, &fates);
+  clip_triangles(frame, some.vertices, some.bins, some.counts, &fates);
+  const auto want = drawn(all.bins), got = drawn(some.bins);
+  ASSERT_EQ(got.size(), want.size());
+  if (!want.empty()) {
+    ASSERT_EQ(0, std::memcmp(got.data(), want.data(), want.size() * sizeof(ScreenTriangle)));
+  }
+  const FrameCounts &a = all.counts, &s = some.counts;
+  ASSERT_EQ(s.triangles_in, frame.scene->triangles.size());
+  ASSERT_EQ(sum(s), s.triangles_in);
+  ASSERT_EQ(s.triangles_invalid, a.triangles_invalid);
+  ASSERT_EQ(s.triangles_clipped, a.triangles_clipped);
+  ASSERT_EQ(s.triangles_drawn, a.triangles_drawn);
+  ASSERT_EQ(s.triangles_empty, a.triangles_empty);
+  ASSERT_LE(s.triangles_outside, a.triangles_outside);  // some of those are back faces as well
+  seen.clusters += clusters.count();
+  for (const uint8_t f : fates.fate) seen.outside += f == kClusterOutside, seen.back_face += f == kClusterBackFace;
+}
+
+// More than 10^5 clusters, each from several cameras; scales and places from 2^-20 to 2^20.
+TEST(RasterClusters, DropWhatTheirTrianglesWouldBeDroppedFor) {
+  constexpr int kClusters = 128;
+  TestRandom random(1);
+  Seen seen;
+  Patches patches(2, kClusters);
+  Parallel parallel(1);
+  for (int n = 0; n < 1000; ++n) {
+    const double scale = std::exp2(random.uniform(-20, 20));
+    const dvec3 middle = random.below(3) ? unit(random) * std::exp2(random.uniform(-20, 20)) : dvec3(0);
+    patches.place(middle, scale);
+    const Clusters clusters = make_clusters(patches.scene(), {}, parallel);
+    const bool wide = random.below(2) != 0;
+    for (int view = 0; view < 3; ++view) {
+      const dvec3 eye = middle + random_point(random, scale);
+      Camera camera = camera_at(eye, eye + unit(random) * scale, scale * std::exp2(random.uniform(-8, 1)));
+      camera.fov_y_degrees = wide ? random.uniform(30, 170) : std::exp2(random.uniform(-6, 5));
+      const auto isas = supported_isas();
+      const Isa isa = isas[static_cast<size_t>(random.below(static_cast<int>(isas.size())))];
+      Settings settings = test_settings(random.between(1, 300), random.between(1, 300), isa, 1);
+      settings.culling = random.below(4) ? Culling::kBack : Culling::kNone;
+      compare(patches.scene(), camera, settings, clusters, seen);
+      if (HasFatalFailure()) FAIL() << "round " << n << ", view " << view;
+    }
+  }
+  EXPECT_GT(seen.clusters, 300000u);
+  EXPECT_GT(seen.outside, seen.clusters / 10);
+  EXPECT_GT(seen.back_face, seen.clusters / 50);
+}
+
+// One cluster, all of whose vertices lie outside of one side of the frustum, but for one that lies on that side as far as double can
+// tell: in front of it or behind it by rounding. The box has its farthest corner there.
+TEST(RasterClusters, AVertexOnASideOfTheFrustumIsDecidedByItsOwnTest) {
+  TestRandom random(3);
+  Seen seen;
+  Parallel parallel(1);
+  uint64_t kept = 0;
+  SceneData scene = make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+  scene.triangles.resize(kClusterTriangles);
+  for (int n = 0; n < 100000; ++n) {
+    const double scale = std::exp2(random.uniform(-20, 20));
+    const Settings settings = test_settings(random.between(1, 2000), random.between(1, 2000), Isa::kAuto, 1);
+    Camera camera = camera_at({0, 0, 0}, unit(random), scale * std::exp2(random.uniform(-8, -1)));
+    camera.fov_y_degrees = random.uniform(1, 150);
+    const PrimaryRays rays = make_primary_rays(camera, settings.width, settings.height);
+    const int side = random.below(5);
+    const double x = side == 0 ? 0 : side == 1 ? rays.width : random.uniform(0, rays.width);
+    const double y = side == 2 ? 0 : side == 3 ? rays.height : random.uniform(0, rays.height);
+    const dvec3 inward[5] = {rays.pixel_row_x, rays.forward * static_cast<double>(rays.width) - rays.pixel_row_x, rays.pixel_row_y,
+                             rays.forward * static_cast<double>(rays.height) - rays.pixel_row_y, rays.forward};
+    put(random_point(random, scale), scene.vertices[0]);
+    const double size = scale * std::exp2(random.uniform(-30, -3));
+    for (int i = 1; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double away = inward[side][k] > 0 ? -1 : 1;
+        scene.vertices[i].position[k] = scene.vertices[0].position[k] + static_cast<float>(away * size * random.uniform());
+      }
+    for (Triangle& t : scene.triangles) t = {{0, 1, 2}, random.below(2) ? kTriangleFlipped : 0}, order_vertices(scene.vertices, t);
+    const double distance = side == 4 ? camera.near_plane : scale * std::exp2(random.uniform(0, 3));
+    for (int k = 0; k < 3; ++k) {
+      camera.eye[k] = scene.vertices[0].position[k] - (rays.corner[k] + rays.step_x[k] * x + rays.step_y[k] * y) * distance;
+      camera.target[k] = camera.eye[k] + rays.forward[k] * scale * 16;
+    }
+    const uint64_t outside = seen.outside;
+    compare(scene, camera, settings, make_clusters(scene, {}, parallel), seen);
+    if (HasFatalFailure()) FAIL() << "round " << n << ", side " << side;
+    kept += seen.outside == outside;
+  }
+  EXPECT_EQ(kept, 100000u);  // none can be told from outside
+}
+
+// The eye in the plane of one triangle of a patch, as far as double can tell.
+TEST(RasterClusters, ATriangleSeenEdgeOnIsDecidedByItsOwnTest) {
+  TestRandom random(4);
+  Seen seen, dropped;
+  Patches patches(5, 1);
+  Parallel parallel(1);
+  uint64_t edge_on = 0;
+  for (int n = 0; n < 100000; ++n) {
+    const double scale = std::exp2(random.uniform(-20, 20));
+    patches.place(dvec3(0), scale);
+    const SceneData& scene = patches.scene();
+    const Triangle& t = scene.triangles[static_cast<size_t>(random.below(3) ? random.below(2) * 63 : random.below(64))];
+    dvec3 v[3];
+    for (int i = 0; i < 3; ++i) v[i] = dvec3(scene.vertices[t.vertex[i]].position[0], scene.vertices[t.vertex[i]].position[1], scene.vertices[t.vertex[i]].position[2]);
+    const dvec3 across = normalize3(v[1] - v[0], dvec3(0)), along = normalize3(v[2] - v[0], dvec3(0));
+    const double far = scale * std::exp2(random.uniform(-8, 8));
+    const dvec3 eye = v[0] + (across * random.uniform(-1, 1) + along * random.uniform(-1, 1)) * far;
+    if (!(std::fabs(eye.x) < 1e18 && std::fabs(eye.y) < 1e18 && std::fabs(eye.z) < 1e18) || eye == v[0]) continue;
+    Camera camera = camera_at(eye, v[0], far * 1e-6);
+    camera.fov_y_degrees = 170;
+    Settings settings = test_settings(64, 64, Isa::kAuto, 1);
+    settings.culling = Culling::kBack;
+    const Clusters clusters = make_clusters(scene, {}, parallel);
+    const double side = facing(scene, t, eye), size = length3(cross3(v[1] - v[0], v[2] - v[0])) * length3(eye - v[0]);
+    edge_on += side != 0 && std::fabs(side) < 1e-12 * size;
+    compare(scene, camera, settings, clusters, seen);
+    // A little behind the plane, the cluster is dropped if the others let it.
+    const dvec3 behind = normalize3(cross3(v[1] - v[0], v[2] - v[0]), dvec3(0)) * (0.01 * far * (t.bits & kTriangleFlipped ? 1 : -1));
+    for (int k = 0; k < 3; ++k) camera.eye[k] += behind[k];
+    compare(scene, camera, settings, clusters, dropped);
+    if (HasFatalFailure()) FAIL() << "round " << n;
+  }
+  EXPECT_GT(edge_on, 20000u);
+  EXPECT_GT(dropped.back_face, 10000u);
+}
+
+// Parallel triangles, one behind the other, seen from behind along their normal by an eye in the plane of the hindmost.
+TEST(RasterClusters, AStackSeenFromTheHindmostPlaneIsDecidedByItsOwnTest) {
+  TestRandom random(10);
+  Seen seen;
+  Parallel parallel(1);
+  uint64_t edge_on = 0;
+  SceneData scene = make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+  scene.triangles.resize(kClusterTriangles), scene.vertices.resize(3 * kClusterTriangles);
+  for (int n = 0; n < 100000; ++n) {
+    const double scale = std::exp2(random.uniform(-20, 20));
+    const auto turn = random_turn(random);
+    for (uint32_t i = 0; i < kClusterTriangles; ++i) {
+      const dvec3 at = (turn[0] * random.uniform(-0.1, 0.1) + turn[1] * random.uniform(-0.1, 0.1) + turn[2] * random.uniform(-1, i == 0 ? -0.99 : 1)) * scale;
+      const dvec3 corner[3] = {at, at + turn[0] * (scale * 0.1), at + turn[1] * (scale * 0.1)};
+      for (uint32_t k = 0; k < 3; ++k) put(corner[k], scene.vertices[3 * i + k]);
+      scene.triangles[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, 0};
+      order_vertices(scene.vertices, scene.triangles[i]);
+    }
+    const Clusters clusters = make_clusters(scene, {}, parallel);
+    double hindmost = 1e30;
+    uint32_t last = 0;
+    const auto at = [&](uint32_t v) { return dvec3(scene.vertices[v].position[0], scene.vertices[v].position[1], scene.vertices[v].position[2]); };
+    for (uint32_t i = 0; i < kClusterTriangles; ++i)
+      if (dot3(at(3 * i), turn[2]) < hindmost) hindmost = dot3(at(3 * i), turn[2]), last = 3 * i;
+    const dvec3 across = at(last + 1) - at(last), along = at(last + 2) - at(last), center(clusters.center[0][0], clusters.center[1][0], clusters.center[2][0]);
+    const dvec3 toward = center - at(last);
+    const dvec3 eye = at(last) + across * (dot3(toward, across) / dot3(across, across) + random.uniform(-1e-3, 1e-3)) + along * (dot3(toward, along) / dot3(along, along));
+    Camera camera = camera_at(eye, center, scale * 1e-6);
+    camera.fov_y_degrees = 170;
+    Settings settings = test_settings(64, 64, Isa::kAuto, 1);
+    settings.culling = Culling::kBack;
+    const double side = facing(scene, scene.triangles[last / 3], eye);
+    edge_on += side > 0 && side < 1e-14 * scale * scale * scale;
+    compare(scene, camera, settings, clusters, seen);
+    if (HasFatalFailure()) FAIL() << "round " << n;
+  }
+  EXPECT_GT(edge_on, 10000u);
+}
+
+TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
+  Patches patches(6, 40);
+  patches.place(dvec3(0), 1e-3);
+  SceneData& scene = patches.scene();
+  for (Vertex& v : scene.vertices)
+    if (!std::isfinite(v.position[0] + v.position[1] + v.position[2])) v = Vertex{};
+  scene.vertices[scene.triangles[20 * kClusterTriangles].vertex[1]].position[1] = std::nanf("");
+  Parallel parallel(2);
+  const std::vector<MovingRun> moving = {{0, 1, 0}, {5 * kClusterTriangles - 1, 2, 0}, {30 * kClusterTriangles, 2 * kClusterTriangles, 0}};
+  const Clusters clusters = make_clusters(scene, moving, parallel);
+  Settings settings = test_settings(50, 50);
+  const auto t = make_test_frame(SceneData(), camera_at({0, 0, 9}, {0, 0, 10}), settings);
+  t->frame.scene = &scene;
+  ClusterFates fates;
+  find_cluster_fates(t->frame, clusters, fates);
+  for (uint32_t c = 0; c < 40; ++c) {
+    const bool kept = c == 0 || c == 4 || c == 5 || c == 20 || c == 30 || c == 31;
+    EXPECT_EQ(fates.fate[c], kept ? kClusterKept : kClusterOutside) << c;
+  }
+}
+
+// Clusters whose vertices lie all over the scene: their vertices are transformed.
+TEST(RasterClusters, ScatteredTrianglesAreDrawnWhole) {
+  TestRandom random(7);
+  Patches patches(8, 2000);
+  patches.place(dvec3(0), 1);
+  SceneData& scene = patches.scene();
+  for (const size_t shuffled : {size_t{6400}, scene.triangles.size()}) {
+    for (size_t i = shuffled - 1; i > 0; --i) std::swap(scene.triangles[i], scene.triangles[static_cast<size_t>(random.below(static_cast<int>(i + 1)))]);
+    for (const int threads : {1, 2}) {
+      Parallel parallel(threads);
+      const Clusters clusters = make_clusters(scene, {}, parallel);
+      EXPECT_EQ(clusters.scattered, shuffled / kClusterTriangles);
+      Seen seen;
+      Settings settings = test_settings(200, 150, Isa::kAuto, threads);
+      settings.culling = Culling::kBack;
+      compare(scene, camera_at({0, 0, 5}, {0, 4, 0}), settings, clusters, seen);
+      if (shuffled < scene.triangles.size()) {
+        EXPECT_GT(seen.outside, 10u);
+      }
+    }
+  }
+}
+
+// Nothing but the instruction set differs: not what is dropped either.
+TEST(RasterClusters, AreTheSameOnEveryInstructionSetAndThread) {
+  Patches patches(9, 3000);
+  patches.place(dvec3(0), 1);
+  Parallel one(1), two(2);
+  const Clusters clusters = make_clusters(patches.scene(), {}, one), again = make_clusters(patches.scene(), {}, two);
+  EXPECT_EQ(0, std::memcmp(clusters.blocks.data(), again.blocks.data(), clusters.count() * sizeof(ClusterBlocks)));
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_EQ(0, std::memcmp(clusters.half[a].data(), again.half[a].data(), clusters.count() * 4));
+    EXPECT_EQ(0, std::memcmp(clusters.axis[a].data(), again.axis[a].data(), clusters.count() * 4));
+  }
+  std::vector<uint8_t> want;
+  for (const Isa isa : supported_isas())
+    for (const int threads : {1, 2}) {
+      Settings settings = test_settings(200, 150, isa, threads);
+      settings.culling = Culling::kBack;
+      const auto t = make_test_frame(SceneData(), camera_at({0, 0, 1}, {0, 0, 0}), settings);
+      t->frame.scene = &patches.scene();
+      ClusterFates fates;
+      find_cluster_fates(t->frame, clusters, fates);
+      const std::vector<uint8_t> got(fates.fate.begin(), fates.fate.end());
+      if (want.empty()) want = got;
+      EXPECT_EQ(got, want) << static_cast<int>(isa);
+    }
+  for (const uint8_t fate : {kClusterKept, kClusterOutside, kClusterBackFace}) EXPECT_GT(std::count(want.begin(), want.end(), fate), 100);
+}
+
+}  // namespace
+}  // namespace spanray
