@@ -138,7 +138,7 @@ TEST(RasterClusters, DropWhatTheirTrianglesWouldBeDroppedFor) {
     const double scale = std::exp2(random.uniform(-20, 20));
     const dvec3 middle = random.below(3) ? unit(random) * std::exp2(random.uniform(-20, 20)) : dvec3(0);
     patches.place(middle, scale);
-    const Clusters clusters = make_clusters(patches.scene(), {}, parallel);
+    const Clusters clusters = make_clusters(patches.scene(), {}, resolve_isa(Isa::kAuto), parallel);
     const bool wide = random.below(2) != 0;
     for (int view = 0; view < 3; ++view) {
       const dvec3 eye = middle + random_point(random, scale);
@@ -191,7 +191,7 @@ TEST(RasterClusters, AVertexOnASideOfTheFrustumIsDecidedByItsOwnTest) {
       camera.target[k] = camera.eye[k] + rays.forward[k] * scale * 16;
     }
     const uint64_t outside = seen.outside;
-    compare(scene, camera, settings, make_clusters(scene, {}, parallel), seen);
+    compare(scene, camera, settings, make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel), seen);
     if (HasFatalFailure()) FAIL() << "round " << n << ", side " << side;
     kept += seen.outside == outside;
   }
@@ -220,7 +220,7 @@ TEST(RasterClusters, ATriangleSeenEdgeOnIsDecidedByItsOwnTest) {
     camera.fov_y_degrees = 170;
     Settings settings = test_settings(64, 64, Isa::kAuto, 1);
     settings.culling = Culling::kBack;
-    const Clusters clusters = make_clusters(scene, {}, parallel);
+    const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
     const double side = facing(scene, t, eye), size = length3(cross3(v[1] - v[0], v[2] - v[0])) * length3(eye - v[0]);
     edge_on += side != 0 && std::fabs(side) < 1e-12 * size;
     compare(scene, camera, settings, clusters, seen);
@@ -252,7 +252,7 @@ TEST(RasterClusters, AStackSeenFromTheHindmostPlaneIsDecidedByItsOwnTest) {
       scene.triangles[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, 0};
       order_vertices(scene.vertices, scene.triangles[i]);
     }
-    const Clusters clusters = make_clusters(scene, {}, parallel);
+    const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
     double hindmost = 1e30;
     uint32_t last = 0;
     const auto at = [&](uint32_t v) { return dvec3(scene.vertices[v].position[0], scene.vertices[v].position[1], scene.vertices[v].position[2]); };
@@ -282,7 +282,7 @@ TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
   scene.vertices[scene.triangles[20 * kClusterTriangles].vertex[1]].position[1] = std::nanf("");
   Parallel parallel(2);
   const std::vector<MovingRun> moving = {{0, 1, 0}, {5 * kClusterTriangles - 1, 2, 0}, {30 * kClusterTriangles, 2 * kClusterTriangles, 0}};
-  const Clusters clusters = make_clusters(scene, moving, parallel);
+  const Clusters clusters = make_clusters(scene, moving, resolve_isa(Isa::kAuto), parallel);
   Settings settings = test_settings(50, 50);
   const auto t = make_test_frame(SceneData(), camera_at({0, 0, 9}, {0, 0, 10}), settings);
   t->frame.scene = &scene;
@@ -304,7 +304,7 @@ TEST(RasterClusters, ScatteredTrianglesAreDrawnWhole) {
     for (size_t i = shuffled - 1; i > 0; --i) std::swap(scene.triangles[i], scene.triangles[static_cast<size_t>(random.below(static_cast<int>(i + 1)))]);
     for (const int threads : {1, 2}) {
       Parallel parallel(threads);
-      const Clusters clusters = make_clusters(scene, {}, parallel);
+      const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
       EXPECT_EQ(clusters.scattered, shuffled / kClusterTriangles);
       Seen seen;
       Settings settings = test_settings(200, 150, Isa::kAuto, threads);
@@ -322,11 +322,14 @@ TEST(RasterClusters, AreTheSameOnEveryInstructionSetAndThread) {
   Patches patches(9, 3000);
   patches.place(dvec3(0), 1);
   Parallel one(1), two(2);
-  const Clusters clusters = make_clusters(patches.scene(), {}, one), again = make_clusters(patches.scene(), {}, two);
-  EXPECT_EQ(0, std::memcmp(clusters.blocks.data(), again.blocks.data(), clusters.count() * sizeof(ClusterBlocks)));
-  for (int a = 0; a < 3; ++a) {
-    EXPECT_EQ(0, std::memcmp(clusters.half[a].data(), again.half[a].data(), clusters.count() * 4));
-    EXPECT_EQ(0, std::memcmp(clusters.axis[a].data(), again.axis[a].data(), clusters.count() * 4));
+  const Clusters clusters = make_clusters(patches.scene(), {}, Isa::kScalar, one);
+  for (const Isa isa : supported_isas()) {
+    const Clusters again = make_clusters(patches.scene(), {}, isa, two);
+    const auto same = [&](const AlignedBuffer<float>& a, const AlignedBuffer<float>& b) { return std::memcmp(a.data(), b.data(), 4 * clusters.count()) == 0; };
+    EXPECT_EQ(0, std::memcmp(clusters.blocks.data(), again.blocks.data(), clusters.count() * sizeof(ClusterBlocks)));
+    EXPECT_TRUE(same(clusters.cosine, again.cosine) && same(clusters.sine, again.sine) && same(clusters.offset, again.offset));
+    for (int a = 0; a < 3; ++a)
+      EXPECT_TRUE(same(clusters.center[a], again.center[a]) && same(clusters.half[a], again.half[a]) && same(clusters.axis[a], again.axis[a]));
   }
   std::vector<uint8_t> want;
   for (const Isa isa : supported_isas())

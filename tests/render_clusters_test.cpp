@@ -95,7 +95,9 @@ TEST(RenderClusters, ChangeNoFrameWhateverWasRenderedBefore) {
     const FrontEnd all = run_front_end(t->frame);
     const Picture want = rasterize(t->frame, all.bins);
     ASSERT_EQ(out.primitive, want.primitive) << n;
-    if (request.ladder != nullptr) EXPECT_EQ(ladder.hash(Rung::kVertices), hash_of(all.vertices)) << n;
+    if (request.ladder != nullptr) {
+      EXPECT_EQ(ladder.hash(Rung::kVertices), hash_of(all.vertices)) << n;
+    }
     EXPECT_EQ(count(stats.value(), "triangles_drawn"), all.counts.triangles_drawn);
     EXPECT_EQ(count(stats.value(), "triangles_empty"), all.counts.triangles_empty);
     EXPECT_EQ(count(stats.value(), "triangles_culled"), all.counts.triangles_culled());

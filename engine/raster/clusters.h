@@ -43,8 +43,8 @@ struct Clusters {
   size_t memory_bytes() const;
 };
 
-// moving: runs of triangles whose vertices may stand elsewhere in a later frame. Parallel.
-Clusters make_clusters(const SceneData& scene, const std::vector<MovingRun>& moving, Parallel& parallel);
+// moving: runs of triangles whose vertices may stand elsewhere in a later frame; isa: concrete, any makes the same. Parallel.
+Clusters make_clusters(const SceneData& scene, const std::vector<MovingRun>& moving, Isa isa, Parallel& parallel);
 
 // What becomes of a cluster in a frame. Its triangles count as outside, or as back faces, also those that are both.
 enum ClusterFate : uint8_t { kClusterKept, kClusterOutside, kClusterBackFace };

@@ -80,7 +80,7 @@ struct Renderer::Impl {
   // Which clusters this frame drops, or nullptr. They are made in the first frame that rasterizes a scene.
   const ClusterFates* find_fates(const Frame& frame) {
     if (!clusters && scene.data().triangles.size() > kFewTriangles)
-      clusters = std::make_unique<Clusters>(make_clusters(scene.data(), scene.data().moving_triangles, *parallel));
+      clusters = std::make_unique<Clusters>(make_clusters(scene.data(), scene.data().moving_triangles, frame.isa, *parallel));
     if (!clusters) return nullptr;
     find_cluster_fates(frame, *clusters, fates);
     return &fates;
