@@ -33,6 +33,7 @@ void put(const dvec3& p, Vertex& v) {
 // A scene of clusters that stand apart, each with vertices of its own: a strip of 64 triangles, bent or flat or crumpled, turned any way.
 class Patches {
  public:
+  static constexpr int kColumns = 32, kVertices = 2 * (kColumns + 1);
   Patches(uint32_t seed, int clusters) : random_(seed) {
     scene_ = make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
     scene_.vertices.resize(static_cast<size_t>(clusters) * kVertices), scene_.triangles.resize(static_cast<size_t>(clusters) * kClusterTriangles);
@@ -42,26 +43,12 @@ class Patches {
 
   // Places all clusters anew about `middle`, where the camera may be, in units of `scale`.
   void place(const dvec3& middle, double scale) {
-    for (size_t c = 0; c < scene_.triangles.size() / kClusterTriangles; ++c) place_one(c, middle, scale);
+    for (size_t c = 0; c < scene_.triangles.size() / kClusterTriangles; ++c)
+      place_one(c, middle + unit(random_) * (scale * std::exp2(random_.uniform(-4, 3))), scale * std::exp2(random_.uniform(-6, random_.below(8) ? 0 : 4)));
   }
 
- private:
-  static constexpr int kColumns = 32, kVertices = 2 * (kColumns + 1);
-
-  void connect(uint32_t c, uint32_t flip) {
-    const uint32_t first = c * kVertices;
-    for (uint32_t i = 0; i < kColumns; ++i) {
-      const uint32_t a = first + i, b = a + 1, d = a + kColumns + 1;
-      Triangle* const t = &scene_.triangles[c * kClusterTriangles + 2 * i];
-      t[0] = {{a, b, d}, flip}, t[1] = {{b, d + 1, d}, flip};
-      order_vertices(scene_.vertices, t[0]), order_vertices(scene_.vertices, t[1]);
-    }
-  }
-
-  void place_one(size_t c, const dvec3& middle, double scale) {
+  void place_one(size_t c, const dvec3& center, double size) {
     const auto turn = random_turn(random_);
-    const double size = scale * std::exp2(random_.uniform(-6, random_.below(8) ? 0 : 4));
-    const dvec3 center = middle + unit(random_) * (scale * std::exp2(random_.uniform(-4, 3)));
     const double bend = random_.below(4) ? random_.uniform(-1.5, 1.5) * random_.uniform() : 0, rough = random_.below(3) ? 0 : random_.uniform(0, 0.1);
     const double width = random_.below(4) ? random_.uniform(0, 1) : 1e-6;
     Vertex* const v = &scene_.vertices[c * kVertices];
@@ -76,6 +63,17 @@ class Patches {
     connect(static_cast<uint32_t>(c), random_.below(2) ? kTriangleFlipped : 0);
   }
 
+ private:
+  void connect(uint32_t c, uint32_t flip) {
+    const uint32_t first = c * kVertices;
+    for (uint32_t i = 0; i < kColumns; ++i) {
+      const uint32_t a = first + i, b = a + 1, d = a + kColumns + 1;
+      Triangle* const t = &scene_.triangles[c * kClusterTriangles + 2 * i];
+      t[0] = {{a, b, d}, flip}, t[1] = {{b, d + 1, d}, flip};
+      order_vertices(scene_.vertices, t[0]), order_vertices(scene_.vertices, t[1]);
+    }
+  }
+
   TestRandom random_;
   SceneData scene_;
 };
@@ -88,7 +86,7 @@ std::vector<ScreenTriangle> drawn(const TileBins& bins) {
 }
 uint64_t sum(const FrameCounts& c) { return c.triangles_invalid + c.triangles_culled() + c.triangles_drawn; }
 
-struct Seen { uint64_t clusters = 0, outside = 0, back_face = 0; };
+struct Seen { uint64_t clusters = 0, outside = 0, back_face = 0, hidden = 0; };
 
 // A vertex may be read only if it was transformed: the others stand as what would be seen.
 void poison(ScreenVertices& v, size_t n) {
@@ -96,12 +94,31 @@ void poison(ScreenVertices& v, size_t n) {
   v.x_24_8.resize(0), v.x_24_8.assign(n, 128), v.y_24_8.resize(0), v.y_24_8.assign(n, 128), v.outcode.resize(0), v.outcode.assign(n, 0);
 }
 
+// accept() of masked materials: every third column.
+uint32_t accept_columns(const Frame&, uint32_t, int x0, int, uint32_t candidates, int) {
+  for (int i = 0; i < 32; ++i)
+    if ((x0 + i) % 3 != 0) candidates &= ~(1u << i);
+  return candidates;
+}
+
+void compare_pictures(const Frame& frame, const TileBins& all, const TileBins& some) {
+  for (int place = frame.places.first(); place < frame.places.end(); ++place) {
+    const Picture want = rasterize(frame, all, place), got = rasterize(frame, some, place);
+    ASSERT_EQ(got.primitive, want.primitive);
+    ASSERT_EQ(0, std::memcmp(got.depth.data(), want.depth.data(), want.depth.size() * 4));
+    const FragmentList layers = all_fragments(frame, all, place), found = all_fragments(frame, some, place);
+    ASSERT_TRUE(std::equal(layers.primitive.begin(), layers.primitive.end(), found.primitive.begin(), found.primitive.end()));
+    ASSERT_TRUE(std::equal(layers.pixel.begin(), layers.pixel.end(), found.pixel.begin(), found.pixel.end()));
+  }
+}
+
 // The frame with and without clusters.
 void compare(const SceneData& scene, const Camera& camera, const Settings& settings, const Clusters& clusters, Seen& seen) {
   const auto t = make_test_frame(SceneData(), camera, settings);
-  t->material_flags.assign(1, 0);
+  for (const Material& m : scene.materials) t->material_flags.push_back(material_flags(m, settings));
   Frame& frame = t->frame;
-  frame.scene = &scene, frame.material_flags = t->material_flags.data();
+  frame.scene = &scene, frame.material_flags = t->material_flags.data(), frame.accept_row = accept_columns;
+  frame.places = make_sample_places(settings.samples);
   FrontEnd all, some;
   transform_vertices(frame, all.vertices);
   clip_triangles(frame, all.vertices, all.bins, all.counts);
@@ -110,21 +127,29 @@ void compare(const SceneData& scene, const Camera& camera, const Settings& setti
   poison(some.vertices, frame.scene->vertices.size());
   transform_vertices(frame, some.vertices, &fates);
   clip_triangles(frame, some.vertices, some.bins, some.counts, &fates);
-  const auto want = drawn(all.bins), got = drawn(some.bins);
-  ASSERT_EQ(got.size(), want.size());
-  if (!want.empty()) {
-    ASSERT_EQ(0, std::memcmp(got.data(), want.data(), want.size() * sizeof(ScreenTriangle)));
-  }
   const FrameCounts &a = all.counts, &s = some.counts;
   ASSERT_EQ(s.triangles_in, frame.scene->triangles.size());
   ASSERT_EQ(sum(s), s.triangles_in);
   ASSERT_EQ(s.triangles_invalid, a.triangles_invalid);
-  ASSERT_EQ(s.triangles_clipped, a.triangles_clipped);
-  ASSERT_EQ(s.triangles_drawn, a.triangles_drawn);
-  ASSERT_EQ(s.triangles_empty, a.triangles_empty);
+  if (s.triangles_hidden == 0) {
+    ASSERT_EQ(s.triangles_clipped, a.triangles_clipped);
+    ASSERT_EQ(s.triangles_drawn, a.triangles_drawn);
+    ASSERT_EQ(s.triangles_empty, a.triangles_empty);
+  }
   ASSERT_LE(s.triangles_outside, a.triangles_outside);  // some of those are back faces as well
+  auto want = drawn(all.bins);
+  const auto got = drawn(some.bins);
+  std::erase_if(want, [&](const ScreenTriangle& x) { return fates.fate[x.primitive / kClusterTriangles] == kClusterHidden; });
+  ASSERT_EQ(got.size(), want.size());
+  if (!want.empty()) {
+    ASSERT_EQ(0, std::memcmp(got.data(), want.data(), want.size() * sizeof(ScreenTriangle)));
+  }
+  if (s.triangles_hidden > 0) {
+    bin_triangles(frame, all.bins), bin_triangles(frame, some.bins);
+    compare_pictures(frame, all.bins, some.bins);
+  }
   seen.clusters += clusters.count();
-  for (const uint8_t f : fates.fate) seen.outside += f == kClusterOutside, seen.back_face += f == kClusterBackFace;
+  for (const uint8_t f : fates.fate) seen.outside += f == kClusterOutside, seen.back_face += f == kClusterBackFace, seen.hidden += f == kClusterHidden;
 }
 
 // More than 10^5 clusters, each from several cameras; scales and places from 2^-20 to 2^20.
@@ -273,6 +298,53 @@ TEST(RasterClusters, AStackSeenFromTheHindmostPlaneIsDecidedByItsOwnTest) {
   EXPECT_GT(edge_on, 10000u);
 }
 
+// Walls of every kind, and patches behind, before and in them, as close as float can tell.
+TEST(RasterClusters, HiddenOnesShowNothing) {
+  constexpr int kClusters = 100;
+  TestRandom random(11);
+  Seen seen;
+  Parallel parallel(1);
+  for (int n = 0; n < 1500; ++n) {
+    const double scale = std::exp2(random.uniform(-20, 20));
+    const dvec3 eye = random.below(3) ? unit(random) * std::exp2(random.uniform(-20, 4)) * scale : dvec3(0), forward = unit(random);
+    Patches patches(static_cast<uint32_t>(n), kClusters);
+    SceneData& scene = patches.scene();
+    Material mask;
+    mask.transparency = static_cast<int32_t>(MaterialTransparency::kScreenDoor), mask.opacity = 0.5f;
+    scene.materials = {Material(), translucent_material(), mask};
+    const dvec3 wall = eye + forward * scale;
+    const dvec3 normal = normalize3(unit(random) * 0.99 - forward, dvec3(0, 1, 0)), side = normalize3(cross3(normal, unit(random)), dvec3(1, 0, 0)), up = cross3(normal, side);
+    for (size_t c = 0; c < kClusters; ++c) {
+      const dvec3 on_wall = wall + (side * random.uniform(-1, 1) + up * random.uniform(-1, 1)) * (scale * 1.5);
+      const double depth = random.uniform(-1, 0.1) * std::exp2(random.uniform(-24, 3));
+      patches.place_one(c, on_wall + normal * (depth * scale), scale * std::exp2(random.uniform(-24, -3)));
+    }
+    for (size_t i = kClusterTriangles; i < scene.triangles.size(); ++i) scene.triangles[i].bits |= static_cast<uint32_t>(random.below(9) ? 0 : random.below(3));
+    // Large ones among the triangles of the first cluster.
+    const int walls = random.between(1, 4);
+    for (int w = 0; w < walls; ++w) {
+      const uint32_t first = static_cast<uint32_t>(w) * 4;
+      const double size = scale * random.uniform(0.5, 12), tilt = w == 0 ? 0 : random.uniform(-1, 1) * std::exp2(random.uniform(-20, 0));
+      const dvec3 a = side + normal * tilt;
+      put(wall - a * size - up * size, scene.vertices[first]), put(wall + a * size - up * size, scene.vertices[first + 1]);
+      put(wall + a * size + up * size, scene.vertices[first + 2]), put(wall - a * size + up * size, scene.vertices[first + 3]);
+      const uint32_t material = random.below(3) ? 0 : static_cast<uint32_t>(random.below(3));
+      scene.triangles[2 * static_cast<size_t>(w)] = {{first, first + 1, first + 2}, material};
+      scene.triangles[2 * static_cast<size_t>(w) + 1] = {{first, first + 2, first + 3}, material};
+    }
+    for (size_t i = 0; i < kClusterTriangles; ++i) order_vertices(scene.vertices, scene.triangles[i]);
+    const auto isas = supported_isas();
+    constexpr int kSamples[] = {1, 1, 4, 16};
+    Settings settings = test_settings(random.between(16, 200), random.between(16, 200), isas[static_cast<size_t>(random.below(static_cast<int>(isas.size())))], 1);
+    settings.culling = random.below(8) ? Culling::kNone : Culling::kBack, settings.samples = kSamples[random.below(4)];
+    Camera camera = camera_at(eye, eye + (forward + unit(random) * 0.2) * scale, scale * std::exp2(random.uniform(-12, -1)));
+    camera.fov_y_degrees = random.uniform(5, 120);
+    compare(scene, camera, settings, make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel), seen);
+    if (HasFatalFailure()) FAIL() << "round " << n;
+  }
+  EXPECT_GT(seen.hidden, seen.clusters / 20);
+}
+
 TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
   Patches patches(6, 40);
   patches.place(dvec3(0), 1e-3);
@@ -285,7 +357,8 @@ TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
   const Clusters clusters = make_clusters(scene, moving, resolve_isa(Isa::kAuto), parallel);
   Settings settings = test_settings(50, 50);
   const auto t = make_test_frame(SceneData(), camera_at({0, 0, 9}, {0, 0, 10}), settings);
-  t->frame.scene = &scene;
+  t->material_flags.assign(1, 0);
+  t->frame.scene = &scene, t->frame.material_flags = t->material_flags.data();
   ClusterFates fates;
   find_cluster_fates(t->frame, clusters, fates);
   for (uint32_t c = 0; c < 40; ++c) {
@@ -337,7 +410,8 @@ TEST(RasterClusters, AreTheSameOnEveryInstructionSetAndThread) {
       Settings settings = test_settings(200, 150, isa, threads);
       settings.culling = Culling::kBack;
       const auto t = make_test_frame(SceneData(), camera_at({0, 0, 1}, {0, 0, 0}), settings);
-      t->frame.scene = &patches.scene();
+      t->material_flags.assign(1, 0);
+      t->frame.scene = &patches.scene(), t->frame.material_flags = t->material_flags.data();
       ClusterFates fates;
       find_cluster_fates(t->frame, clusters, fates);
       const std::vector<uint8_t> got(fates.fate.begin(), fates.fate.end());

@@ -84,9 +84,10 @@ inline double facing(const SceneData& scene, const Triangle& t, const glm::dvec3
 // Integers only: sums do not depend on the order of tasks.
 struct FrameCounts {
   uint64_t triangles_in = 0, triangles_invalid = 0, triangles_clipped = 0, triangles_drawn = 0;
-  // Of those that are not drawn: outside the picture, back faces (where they are culled), without a sample in the picture.
-  uint64_t triangles_outside = 0, triangles_back_face = 0, triangles_empty = 0;
-  uint64_t triangles_culled() const { return triangles_outside + triangles_back_face + triangles_empty; }
+  // Of those that are not drawn: outside the picture, back faces (where they are culled), in clusters behind something large
+  // (raster/occluders.h), without a sample in the picture. One that is several of these counts once, as any of them.
+  uint64_t triangles_outside = 0, triangles_back_face = 0, triangles_hidden = 0, triangles_empty = 0;
+  uint64_t triangles_culled() const { return triangles_outside + triangles_back_face + triangles_hidden + triangles_empty; }
   // Of opaque triangles, once for each tile and each sample of a pixel: listed, and hidden by what was drawn before. Samples that passed
   // the depth test; over the covered ones, that is the overdraw.
   uint64_t tile_triangles = 0, tile_triangles_hidden = 0, samples_passed = 0;

@@ -171,6 +171,7 @@ void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins
     counts.triangles_clipped += c.triangles_clipped;
     counts.triangles_outside += c.triangles_outside;
     counts.triangles_back_face += c.triangles_back_face;
+    counts.triangles_hidden += c.triangles_hidden;
     counts.triangles_empty += c.triangles_empty;
     counts.triangles_drawn += c.triangles_drawn;
   }

@@ -36,7 +36,9 @@ class RangeClipper {
         continue;
       }
       counts_.triangles_in += last - first;
-      (what == kClusterOutside ? counts_.triangles_outside : counts_.triangles_back_face) += last - first;
+      (what == kClusterOutside    ? counts_.triangles_outside
+       : what == kClusterBackFace ? counts_.triangles_back_face
+                                  : counts_.triangles_hidden) += last - first;
     }
     if (count_ > 0) set_up(count_);
   }

@@ -19,10 +19,13 @@ namespace HWY_NAMESPACE {
 
 class ClusterTester {
  public:
-  ClusterTester(const Frame& frame, const Clusters& clusters) : primary_(frame.primary), clusters_(clusters) {
+  ClusterTester(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders)
+      : primary_(frame.primary), clusters_(clusters), occluders_(occluders) {
     cull_back_ = frame.settings.culling == Culling::kBack;
     right_row_ = primary_.pixel_row_x - primary_.forward * static_cast<double>(primary_.width);
     bottom_row_ = primary_.pixel_row_y - primary_.forward * static_cast<double>(primary_.height);
+    middle_row_x_ = primary_.pixel_row_x - primary_.forward * (0.5 * primary_.width);
+    middle_row_y_ = primary_.pixel_row_y - primary_.forward * (0.5 * primary_.height);
   }
 
   void test(size_t first, uint8_t* fate) {
@@ -36,6 +39,7 @@ class ClusterTester {
     int32_t code[16];
     select(outside, i32(int32_t{kClusterOutside}), select(back, i32(int32_t{kClusterBackFace}), I32::zero())).store(code);
     for (int k = 0; k < kLanes; ++k) fate[k] = static_cast<uint8_t>(code[k]);
+    if (occluders_.any && any(!(outside | back))) hide(fate);
   }
 
  private:
@@ -83,15 +87,49 @@ class ClusterTester {
     return (most < -(reach * f64(0x1p-40)) - f64(1e-140)) & (reach < f64(1e100));
   }
 
+  // Of dot(row, v - eye) / W, in pixels, for all v in the box, and the blocks that they are in. A sample that a triangle covers lies within its
+  // box of snapped corners, 1/256 pixel farther out at most.
+  struct Blocks { I32 first, last; };
+  Blocks blocks_of(const glm::dvec3& row, const Bounds& w, F64 w_low, int pixels) const {
+    const F64 zero = f64(0.0), middle = f64(0.5 * pixels), limit = f64(1e6);
+    const Bounds b = bounds(row);
+    const F64 margin = (b.most + w.most) * f64(0x1p-30) / w_low + f64(1.0 / 64);
+    const F64 low = middle + b.low / select_lt(b.low, zero, w_low, w.high) - margin, high = middle + b.high / select_lt(zero, b.high, w_low, w.high) + margin;
+    const auto block = [&](F64 x) HWY_ATTR { return shift_right<kBlockBits>(floor_of(min_(max_(x, -limit), limit))); };
+    return {max_(block(low), I32::zero()), min_(block(high), i32((pixels - 1) >> kBlockBits))};
+  }
+  static HWY_INLINE I32 floor_of(F64 a) { return I32::zero() - ceil_i32(-a); }
+
+  // Boxes in front of the near plane whose blocks all have something nearer.
+  void hide(uint8_t* fate) const {
+    const Bounds w = bounds(primary_.forward);
+    const F64 w_low = w.low - w.most * f64(0x1p-40);
+    const Mask in_front = f64(primary_.near_plane) < w_low;
+    const F64 safe = select(in_front, w_low, f64(1.0));
+    const Blocks columns = blocks_of(middle_row_x_, w, safe, primary_.width), rows = blocks_of(middle_row_y_, w, safe, primary_.height);
+    const F32 nearest = to_f32(f64(primary_.near_plane * (1 + 0x1p-20)) / safe);
+    const Mask may = in_front & (w.most < f64(1e100)) & !(columns.last < columns.first) & !(rows.last < rows.first);
+    int32_t x0[16], x1[16], y0[16], y1[16];
+    float depth[16];
+    columns.first.store(x0), columns.last.store(x1), rows.first.store(y0), rows.last.store(y1), nearest.store(depth);
+    for (uint32_t left = to_bits(may); left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      if (fate[k] == kClusterKept && occluders_.hides(x0[k], x1[k], y0[k], y1[k], depth[k])) fate[k] = kClusterHidden;
+    }
+  }
+
+  static constexpr int kBlockBits = 4;
+  static_assert(OccluderDepths::kBlock == 1 << kBlockBits);
   const PrimaryRays& primary_;
   const Clusters& clusters_;
+  const OccluderDepths& occluders_;
   bool cull_back_;
-  glm::dvec3 right_row_, bottom_row_;
+  glm::dvec3 right_row_, bottom_row_, middle_row_x_, middle_row_y_;
   F64 from_eye_[3], half_[3], reach_[3];
 };
 
-void test_clusters(const Frame& frame, const Clusters& clusters, size_t begin, size_t end, uint8_t* fate) {
-  ClusterTester tester(frame, clusters);
+void test_clusters(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders, size_t begin, size_t end, uint8_t* fate) {
+  ClusterTester tester(frame, clusters, occluders);
   for (size_t i = begin; i < end; i += kLanes) tester.test(i, fate + i);
 }
 
@@ -130,9 +168,10 @@ void find_cluster_fates(const Frame& frame, const Clusters& clusters, ClusterFat
   out.block.resize((clusters.vertices + kBlockVertices - 1) / kBlockVertices);
   std::memset(out.block.data(), 0, out.block.size());
   out.all_blocks = clusters.scattered > count / 16;
+  draw_occluders(frame, clusters.large, out.occluders);
   frame.parallel->for_each((count + kTask - 1) / kTask, [&](size_t task, int) {
     const size_t begin = task * kTask, end = std::min(count, begin + kTask);
-    kTestClusters[isa_index(frame.isa)](frame, clusters, begin, end, out.fate.data());
+    kTestClusters[isa_index(frame.isa)](frame, clusters, out.occluders, begin, end, out.fate.data());
     for (size_t i = begin; i < end && !out.all_blocks; ++i)
       if (out.fate[i] == kClusterKept) mark_blocks(*frame.scene, clusters, i, out);
   });

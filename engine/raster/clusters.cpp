@@ -1,6 +1,7 @@
 #include "raster/clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "raster/cluster_kernel.h"
@@ -41,6 +42,44 @@ class BlockCollector {
   int runs_ = 0, last_ = 0;
 };
 
+double twice_area(const SceneData& scene, const Triangle& t) {
+  glm::dvec3 v[3];
+  for (int i = 0; i < 3; ++i) {
+    const float* const p = scene.vertices[t.vertex[i]].position;
+    v[i] = {p[0], p[1], p[2]};
+  }
+  return length3(cross3(v[1] - v[0], v[2] - v[0]));
+}
+
+// The largest triangles, among those of at least a thousandth of the square of the scene's size.
+std::vector<uint32_t> find_large(const SceneData& scene, const Clusters& clusters) {
+  double low[3], high[3], least = 0;
+  for (int a = 0; a < 3; ++a) {
+    low[a] = std::numeric_limits<double>::infinity(), high[a] = -low[a];
+    for (size_t i = 0; i < clusters.count(); ++i) {
+      if (std::isinf(clusters.half[a][i])) continue;
+      low[a] = std::min(low[a], double{clusters.center[a][i]} - clusters.half[a][i]);
+      high[a] = std::max(high[a], double{clusters.center[a][i]} + clusters.half[a][i]);
+    }
+    least += (high[a] - low[a]) * (high[a] - low[a]) / 1000;
+  }
+  struct Large { double area; uint32_t primitive; };
+  std::vector<Large> found;
+  for (size_t i = 0; i < clusters.count(); ++i) {
+    if (!(clusters.area[i] * 1.001 >= least)) continue;
+    const size_t end = std::min(clusters.triangles, (i + 1) * kClusterTriangles);
+    for (size_t t = i * kClusterTriangles; t < end; ++t) {
+      const double area = twice_area(scene, scene.triangles[t]);
+      if (area >= least) found.push_back({area, static_cast<uint32_t>(t)});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Large& a, const Large& b) { return a.area != b.area ? a.area > b.area : a.primitive < b.primitive; });
+  found.resize(std::min(found.size(), kMostOccluders));
+  std::vector<uint32_t> out;
+  for (const Large& l : found) out.push_back(l.primitive);
+  return out;
+}
+
 }  // namespace
 
 ClusterBlocks collect_blocks(const int32_t block[3][kClusterTriangles], int count) {
@@ -51,7 +90,7 @@ ClusterBlocks collect_blocks(const int32_t block[3][kClusterTriangles], int coun
 }
 
 size_t Clusters::memory_bytes() const {
-  size_t bytes = cosine.bytes() + sine.bytes() + offset.bytes() + blocks.bytes();
+  size_t bytes = cosine.bytes() + sine.bytes() + offset.bytes() + blocks.bytes() + area.bytes() + large.capacity() * sizeof(uint32_t);
   for (int a = 0; a < 3; ++a) bytes += center[a].bytes() + half[a].bytes() + axis[a].bytes();
   return bytes;
 }
@@ -61,11 +100,12 @@ Clusters make_clusters(const SceneData& scene, const std::vector<MovingRun>& mov
   out.triangles = scene.triangles.size(), out.vertices = scene.vertices.size();
   const size_t count = (out.triangles + kClusterTriangles - 1) / kClusterTriangles;
   for (int a = 0; a < 3; ++a) out.center[a].resize(count), out.half[a].resize(count), out.axis[a].resize(count);
-  out.cosine.resize(count), out.sine.resize(count), out.offset.resize(count), out.blocks.resize(count);
+  out.cosine.resize(count), out.sine.resize(count), out.offset.resize(count), out.blocks.resize(count), out.area.resize(count);
   constexpr size_t kTask = 64;
   parallel.for_each((count + kTask - 1) / kTask, [&](size_t task, int) {
     kMakeClusters[isa_index(isa)](scene, task * kTask, std::min(count, (task + 1) * kTask), out);
   });
+  out.large = find_large(scene, out);
   for (const ClusterBlocks& b : out.blocks) out.scattered += b.runs == 0;
   for (const MovingRun& run : moving)
     for (size_t i = run.first / kClusterTriangles; i * kClusterTriangles < size_t{run.first} + run.count; ++i)

@@ -1,15 +1,16 @@
-// Runs of consecutive triangles that are dropped together, before their vertices are transformed: what lies outside the picture, and
-// what turns its back on the eye.
+// Runs of consecutive triangles that are dropped together, before their vertices are transformed: what lies outside the picture, what turns
+// its back on the eye, and what lies behind something large (raster/occluders.h).
 // Source:   bounding boxes and normal cones: Shirmun and Abi-Ezzi 1993, "The Cone of Normals Technique for Fast Processing of Curved
 //           Patches"; clusters: Haar and Aaltonen 2015, "GPU-Driven Rendering Pipelines".
-// Contract: a cluster is dropped only if the tests of each triangle (clip_kernel.cpp) would drop all of its triangles, with margins above
-//           all rounding. No pixel depends on clusters (DESIGN 3, rule 6), and the same ones are dropped on every instruction set.
+// Contract: a cluster is dropped only if the tests of each triangle (clip_kernel.cpp) would drop all of its triangles, or the depth test all
+//           of its fragments, with margins above all rounding. No pixel depends on clusters (DESIGN 3, rule 6), and the same ones are dropped on every instruction set.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "frame/frame.h"
+#include "raster/occluders.h"
 
 namespace spanray {
 
@@ -38,6 +39,8 @@ struct Clusters {
   AlignedBuffer<float> axis[3], cosine, sine, offset;
   AlignedBuffer<ClusterBlocks> blocks;
   size_t scattered = 0;  // clusters
+  AlignedBuffer<float> area;    // of the largest triangle, twice
+  std::vector<uint32_t> large;  // the largest triangles of the scene, at most kMostOccluders
 
   size_t count() const { return blocks.size(); }
   size_t memory_bytes() const;
@@ -46,14 +49,15 @@ struct Clusters {
 // moving: runs of triangles whose vertices may stand elsewhere in a later frame; isa: concrete, any makes the same. Parallel.
 Clusters make_clusters(const SceneData& scene, const std::vector<MovingRun>& moving, Isa isa, Parallel& parallel);
 
-// What becomes of a cluster in a frame. Its triangles count as outside, or as back faces, also those that are both.
-enum ClusterFate : uint8_t { kClusterKept, kClusterOutside, kClusterBackFace };
+// What becomes of a cluster in a frame; all of its triangles count as that.
+enum ClusterFate : uint8_t { kClusterKept, kClusterOutside, kClusterBackFace, kClusterHidden };
 
 struct ClusterFates {
   AlignedBuffer<uint8_t> fate;   // ClusterFate of each cluster
   AlignedBuffer<uint8_t> block;  // by block of vertices: 1 if a cluster that is kept uses it
   bool all_blocks = true;        // whatever `block` says: so many clusters are scattered that a choice would save nothing
-  size_t memory_bytes() const { return fate.bytes() + block.bytes(); }
+  OccluderDepths occluders;
+  size_t memory_bytes() const { return fate.bytes() + block.bytes() + occluders.depth.bytes(); }
 };
 
 // Parallel. frame.scene: the scene that the clusters are of, its moving parts anywhere.

@@ -107,7 +107,7 @@ class ClusterMaker {
     for (int a = 0; a < 3; ++a) axis[a] = out_.axis[a][cluster] = static_cast<float>(unit[a]), center[a] = out_.center[a][cluster];
     const Dvec3Lanes axes = splat(glm::dvec3(axis[0], axis[1], axis[2])), middle = splat(center);
     const F64 zero = f64(0.0), one = f64(1.0);
-    F64 cosines = one, offsets = zero, squares = one;  // the least, the greatest, the least
+    F64 cosines = one, offsets = zero, squares = one, largest = zero;  // the least, the greatest, the least, the greatest
     for (int i = 0; i < count_; i += kLanes) {
       const Dvec3Lanes n = {F64::load(normal_[0] + i), F64::load(normal_[1] + i), F64::load(normal_[2] + i)};
       const Dvec3Lanes corner = {to_f64(F32::load(corner_[0] + i)), to_f64(F32::load(corner_[1] + i)), to_f64(F32::load(corner_[2] + i))};
@@ -115,10 +115,12 @@ class ClusterMaker {
       cosines = min_(cosines, select_eq(square, zero, one, dot3(n, axes) * scale));
       offsets = max_(offsets, select_eq(square, zero, zero, dot3(n, middle - corner) * scale));
       squares = min_(squares, select_eq(square, zero, one, square));
+      largest = max_(largest, square);
     }
     const double cosine = lane_min(cosines) - kCosineMargin;
     // The last is far above what underflow could do to a normal.
     const bool narrow = finite_ && cosine > kLeastCosine && lane_min(squares) > 1e-280;
+    out_.area[cluster] = finite_ ? static_cast<float>(std::sqrt(-lane_min(-largest))) : 0.0f;
     out_.cosine[cluster] = narrow ? static_cast<float>(cosine) : 1.0f;
     out_.sine[cluster] = narrow ? static_cast<float>(std::sqrt(1 - cosine * cosine)) : 0.0f;
     out_.offset[cluster] = narrow ? static_cast<float>(-lane_min(-offsets)) : std::numeric_limits<float>::infinity();

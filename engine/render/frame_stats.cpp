@@ -44,6 +44,7 @@ void add_counts(const FrameCounts& c, FrameStats& stats) {
                   {"triangles_culled", c.triangles_culled()},
                   {"triangles_outside", c.triangles_outside},
                   {"triangles_back_face", c.triangles_back_face},
+                  {"triangles_hidden", c.triangles_hidden},
                   {"triangles_empty", c.triangles_empty},
                   {"triangles_drawn", c.triangles_drawn},
                   {"tile_triangles", c.tile_triangles},
