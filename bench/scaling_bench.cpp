@@ -1,5 +1,5 @@
-// Cost against the number of triangles: a gallery of balls, some of which are seen, 1280x720, no rays. The others are in view too, behind a
-// wall, or behind the eye. From a million triangles on, as many are seen: 100 thousand.
+// Cost against the number of triangles: a gallery of balls, some of which are seen, 1280x720, no rays. The others are in view
+// too, behind a wall, or behind the eye. From a million triangles on, as many are seen: 100 thousand.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -27,7 +27,8 @@ void add_ball(SceneData& scene, double x, double y, double z, double radius) {
       sin_cos(kPi * i / kBands, &st, &ct), sin_cos(kPi * (j % (2 * kBands)) / kBands, &sp, &cp);
       const double n[3] = {st * cp, ct, -st * sp}, at[3] = {x, y, z};
       Vertex v{};
-      for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(at[k] + radius * n[k]) + 0.0f, v.normal[k] = static_cast<float>(n[k]);
+      for (int k = 0; k < 3; ++k)
+        v.position[k] = static_cast<float>(at[k] + radius * n[k]) + 0.0f, v.normal[k] = static_cast<float>(n[k]);
       scene.vertices.push_back(v);
     }
   const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
@@ -103,7 +104,8 @@ void scaling(benchmark::State& state) {
   uint64_t drawn = 0;
   for (auto _ : state) {
     const FrameStats stats = render();
-    frame.push_back(stats.ms.frame), transform.push_back(stats.ms.transform), clip.push_back(stats.ms.clip), bin.push_back(stats.ms.bin);
+    frame.push_back(stats.ms.frame), transform.push_back(stats.ms.transform), clip.push_back(stats.ms.clip),
+        bin.push_back(stats.ms.bin);
     raster.push_back(stats.ms.raster);
     for (const auto& [name, value] : stats.counts)
       if (name == "triangles_drawn") drawn = value;
@@ -113,7 +115,8 @@ void scaling(benchmark::State& state) {
     return v[v.size() / 2];
   };
   state.counters["frame_ms"] = median(frame), state.counters["first_frame_ms"] = first_ms;
-  state.counters["transform_ms"] = median(transform), state.counters["clip_ms"] = median(clip), state.counters["bin_ms"] = median(bin);
+  state.counters["transform_ms"] = median(transform), state.counters["clip_ms"] = median(clip),
+  state.counters["bin_ms"] = median(bin);
   state.counters["raster_ms"] = median(raster), state.counters["drawn"] = static_cast<double>(drawn);
   state.SetLabel(kOthers[state.range(1)] + std::string(state.range(2) != 0 ? ", back faces culled" : ""));
 }

@@ -1,156 +1,10 @@
-// Clusters drop only what the tests of each triangle drop, and change nothing that is drawn: random patches of triangles at the borders of
-// the picture, at the near plane, edge-on, around the eye, at any scale and place.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <limits>
-
-#include "raster/cluster_kernel.h"
-#include "support/camera_at.h"
-#include "support/random.h"
-#include "support/raster_front_end.h"
+// Clusters drop only what the tests of each triangle drop, or what nobody could see, and change nothing that is drawn: random
+// patches of triangles at the borders of the picture, at the near plane, edge-on, around the eye, behind walls, at any scale
+// and place.
+#include "support/cluster_patches.h"
 
 namespace spanray {
 namespace {
-
-using glm::dvec3;
-
-dvec3 unit(TestRandom& random) { return normalize3(random_point(random), dvec3(1, 0, 0)); }
-
-// Any turn, its rows perpendicular unit vectors.
-std::array<dvec3, 3> random_turn(TestRandom& random) {
-  const dvec3 a = unit(random), b = normalize3(cross3(a, unit(random)), dvec3(0, 1, 0));
-  return {a, b, cross3(a, b)};
-}
-
-void put(const dvec3& p, Vertex& v) {
-  for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(p[k]) + 0.0f;
-}
-
-// A scene of clusters that stand apart, each with vertices of its own: a strip of 64 triangles, bent or flat or crumpled, turned any way.
-class Patches {
- public:
-  static constexpr int kColumns = 32, kVertices = 2 * (kColumns + 1);
-  Patches(uint32_t seed, int clusters) : random_(seed) {
-    scene_ = make_test_scene({soup_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
-    scene_.vertices.resize(static_cast<size_t>(clusters) * kVertices), scene_.triangles.resize(static_cast<size_t>(clusters) * kClusterTriangles);
-    for (Vertex& v : scene_.vertices) v = Vertex{{0, 0, 0}, {0, 0, 1}, {0, 0}};
-  }
-  SceneData& scene() { return scene_; }
-
-  // Places all clusters anew about `middle`, where the camera may be, in units of `scale`.
-  void place(const dvec3& middle, double scale) {
-    for (size_t c = 0; c < scene_.triangles.size() / kClusterTriangles; ++c)
-      place_one(c, middle + unit(random_) * (scale * std::exp2(random_.uniform(-4, 3))), scale * std::exp2(random_.uniform(-6, random_.below(8) ? 0 : 4)));
-  }
-
-  void place_one(size_t c, const dvec3& center, double size) {
-    const auto turn = random_turn(random_);
-    const double bend = random_.below(4) ? random_.uniform(-1.5, 1.5) * random_.uniform() : 0, rough = random_.below(3) ? 0 : random_.uniform(0, 0.1);
-    const double width = random_.below(4) ? random_.uniform(0, 1) : 1e-6;
-    Vertex* const v = &scene_.vertices[c * kVertices];
-    for (int row = 0; row < 2; ++row)
-      for (int i = 0; i <= kColumns; ++i) {
-        const double s = 2.0 * i / kColumns - 1, angle = s * bend;
-        const dvec3 local(bend == 0 ? s : std::sin(angle) / bend, (row - 0.5) * width, bend == 0 ? 0 : (std::cos(angle) - 1) / bend);
-        put(center + (turn[0] * local.x + turn[1] * local.y + turn[2] * (local.z + rough * random_.uniform(-1, 1))) * size, v[row * (kColumns + 1) + i]);
-      }
-    if (random_.below(8) == 0) std::memcpy(v[3].position, v[4].position, sizeof v->position);  // no area
-    if (random_.below(100) == 0) v[random_.below(kVertices)].position[random_.below(3)] = random_.below(2) ? std::nanf("") : INFINITY;
-    connect(static_cast<uint32_t>(c), random_.below(2) ? kTriangleFlipped : 0);
-  }
-
- private:
-  void connect(uint32_t c, uint32_t flip) {
-    const uint32_t first = c * kVertices;
-    for (uint32_t i = 0; i < kColumns; ++i) {
-      const uint32_t a = first + i, b = a + 1, d = a + kColumns + 1;
-      Triangle* const t = &scene_.triangles[c * kClusterTriangles + 2 * i];
-      t[0] = {{a, b, d}, flip}, t[1] = {{b, d + 1, d}, flip};
-      order_vertices(scene_.vertices, t[0]), order_vertices(scene_.vertices, t[1]);
-    }
-  }
-
-  TestRandom random_;
-  SceneData scene_;
-};
-
-// What clip_triangles() makes, in order.
-std::vector<ScreenTriangle> drawn(const TileBins& bins) {
-  std::vector<ScreenTriangle> all;
-  for (const BinChunk& c : bins.chunks) all.insert(all.end(), c.triangles.begin(), c.triangles.end());
-  return all;
-}
-uint64_t sum(const FrameCounts& c) { return c.triangles_invalid + c.triangles_culled() + c.triangles_drawn; }
-
-struct Seen { uint64_t clusters = 0, outside = 0, back_face = 0, hidden = 0; };
-
-// A vertex may be read only if it was transformed: the others stand as what would be seen.
-void poison(ScreenVertices& v, size_t n) {
-  for (AlignedBuffer<double>* a : {&v.x, &v.y, &v.w}) a->resize(0), a->assign(n, 1.0);
-  v.x_24_8.resize(0), v.x_24_8.assign(n, 128), v.y_24_8.resize(0), v.y_24_8.assign(n, 128), v.outcode.resize(0), v.outcode.assign(n, 0);
-}
-
-// accept() of masked materials: every third column.
-uint32_t accept_columns(const Frame&, uint32_t, int x0, int, uint32_t candidates, int) {
-  for (int i = 0; i < 32; ++i)
-    if ((x0 + i) % 3 != 0) candidates &= ~(1u << i);
-  return candidates;
-}
-
-void compare_pictures(const Frame& frame, const TileBins& all, const TileBins& some) {
-  for (int place = frame.places.first(); place < frame.places.end(); ++place) {
-    const Picture want = rasterize(frame, all, place), got = rasterize(frame, some, place);
-    ASSERT_EQ(got.primitive, want.primitive);
-    ASSERT_EQ(0, std::memcmp(got.depth.data(), want.depth.data(), want.depth.size() * 4));
-    const FragmentList layers = all_fragments(frame, all, place), found = all_fragments(frame, some, place);
-    ASSERT_TRUE(std::equal(layers.primitive.begin(), layers.primitive.end(), found.primitive.begin(), found.primitive.end()));
-    ASSERT_TRUE(std::equal(layers.pixel.begin(), layers.pixel.end(), found.pixel.begin(), found.pixel.end()));
-  }
-}
-
-// The frame with and without clusters.
-void compare(const SceneData& scene, const Camera& camera, const Settings& settings, const Clusters& clusters, Seen& seen) {
-  const auto t = make_test_frame(SceneData(), camera, settings);
-  for (const Material& m : scene.materials) t->material_flags.push_back(material_flags(m, settings));
-  Frame& frame = t->frame;
-  frame.scene = &scene, frame.material_flags = t->material_flags.data(), frame.accept_row = accept_columns;
-  frame.places = make_sample_places(settings.samples);
-  FrontEnd all, some;
-  transform_vertices(frame, all.vertices);
-  clip_triangles(frame, all.vertices, all.bins, all.counts);
-  ClusterFates fates;
-  find_cluster_fates(frame, clusters, fates);
-  poison(some.vertices, frame.scene->vertices.size());
-  transform_vertices(frame, some.vertices, &fates);
-  clip_triangles(frame, some.vertices, some.bins, some.counts, &fates);
-  const FrameCounts &a = all.counts, &s = some.counts;
-  ASSERT_EQ(s.triangles_in, frame.scene->triangles.size());
-  ASSERT_EQ(sum(s), s.triangles_in);
-  ASSERT_EQ(s.triangles_invalid, a.triangles_invalid);
-  if (s.triangles_hidden == 0) {
-    ASSERT_EQ(s.triangles_clipped, a.triangles_clipped);
-    ASSERT_EQ(s.triangles_drawn, a.triangles_drawn);
-    ASSERT_EQ(s.triangles_empty, a.triangles_empty);
-  }
-  ASSERT_LE(s.triangles_outside, a.triangles_outside);  // some of those are back faces as well
-  auto want = drawn(all.bins);
-  const auto got = drawn(some.bins);
-  std::erase_if(want, [&](const ScreenTriangle& x) { return fates.fate[x.primitive / kClusterTriangles] == kClusterHidden; });
-  ASSERT_EQ(got.size(), want.size());
-  if (!want.empty()) {
-    ASSERT_EQ(0, std::memcmp(got.data(), want.data(), want.size() * sizeof(ScreenTriangle)));
-  }
-  if (s.triangles_hidden > 0) {
-    bin_triangles(frame, all.bins), bin_triangles(frame, some.bins);
-    compare_pictures(frame, all.bins, some.bins);
-  }
-  seen.clusters += clusters.count();
-  for (const uint8_t f : fates.fate) seen.outside += f == kClusterOutside, seen.back_face += f == kClusterBackFace, seen.hidden += f == kClusterHidden;
-}
 
 // More than 10^5 clusters, each from several cameras; scales and places from 2^-20 to 2^20.
 TEST(RasterClusters, DropWhatTheirTrianglesWouldBeDroppedFor) {
@@ -182,8 +36,8 @@ TEST(RasterClusters, DropWhatTheirTrianglesWouldBeDroppedFor) {
   EXPECT_GT(seen.back_face, seen.clusters / 50);
 }
 
-// One cluster, all of whose vertices lie outside of one side of the frustum, but for one that lies on that side as far as double can
-// tell: in front of it or behind it by rounding. The box has its farthest corner there.
+// One cluster, all of whose vertices lie outside of one side of the frustum, but for one that lies on that side as far as
+// double can tell: in front of it or behind it by rounding. The box has its farthest corner there.
 TEST(RasterClusters, AVertexOnASideOfTheFrustumIsDecidedByItsOwnTest) {
   TestRandom random(3);
   Seen seen;
@@ -200,8 +54,9 @@ TEST(RasterClusters, AVertexOnASideOfTheFrustumIsDecidedByItsOwnTest) {
     const int side = random.below(5);
     const double x = side == 0 ? 0 : side == 1 ? rays.width : random.uniform(0, rays.width);
     const double y = side == 2 ? 0 : side == 3 ? rays.height : random.uniform(0, rays.height);
-    const dvec3 inward[5] = {rays.pixel_row_x, rays.forward * static_cast<double>(rays.width) - rays.pixel_row_x, rays.pixel_row_y,
-                             rays.forward * static_cast<double>(rays.height) - rays.pixel_row_y, rays.forward};
+    const dvec3 inward[5] = {rays.pixel_row_x, rays.forward * static_cast<double>(rays.width) - rays.pixel_row_x,
+                             rays.pixel_row_y, rays.forward * static_cast<double>(rays.height) - rays.pixel_row_y,
+                             rays.forward};
     put(random_point(random, scale), scene.vertices[0]);
     const double size = scale * std::exp2(random.uniform(-30, -3));
     for (int i = 1; i < 3; ++i)
@@ -209,7 +64,8 @@ TEST(RasterClusters, AVertexOnASideOfTheFrustumIsDecidedByItsOwnTest) {
         const double away = inward[side][k] > 0 ? -1 : 1;
         scene.vertices[i].position[k] = scene.vertices[0].position[k] + static_cast<float>(away * size * random.uniform());
       }
-    for (Triangle& t : scene.triangles) t = {{0, 1, 2}, random.below(2) ? kTriangleFlipped : 0}, order_vertices(scene.vertices, t);
+    for (Triangle& t : scene.triangles)
+      t = {{0, 1, 2}, random.below(2) ? kTriangleFlipped : 0}, order_vertices(scene.vertices, t);
     const double distance = side == 4 ? camera.near_plane : scale * std::exp2(random.uniform(0, 3));
     for (int k = 0; k < 3; ++k) {
       camera.eye[k] = scene.vertices[0].position[k] - (rays.corner[k] + rays.step_x[k] * x + rays.step_y[k] * y) * distance;
@@ -236,7 +92,9 @@ TEST(RasterClusters, ATriangleSeenEdgeOnIsDecidedByItsOwnTest) {
     const SceneData& scene = patches.scene();
     const Triangle& t = scene.triangles[static_cast<size_t>(random.below(3) ? random.below(2) * 63 : random.below(64))];
     dvec3 v[3];
-    for (int i = 0; i < 3; ++i) v[i] = dvec3(scene.vertices[t.vertex[i]].position[0], scene.vertices[t.vertex[i]].position[1], scene.vertices[t.vertex[i]].position[2]);
+    for (int i = 0; i < 3; ++i)
+      v[i] = dvec3(scene.vertices[t.vertex[i]].position[0], scene.vertices[t.vertex[i]].position[1],
+                   scene.vertices[t.vertex[i]].position[2]);
     const dvec3 across = normalize3(v[1] - v[0], dvec3(0)), along = normalize3(v[2] - v[0], dvec3(0));
     const double far = scale * std::exp2(random.uniform(-8, 8));
     const dvec3 eye = v[0] + (across * random.uniform(-1, 1) + along * random.uniform(-1, 1)) * far;
@@ -250,7 +108,8 @@ TEST(RasterClusters, ATriangleSeenEdgeOnIsDecidedByItsOwnTest) {
     edge_on += side != 0 && std::fabs(side) < 1e-12 * size;
     compare(scene, camera, settings, clusters, seen);
     // A little behind the plane, the cluster is dropped if the others let it.
-    const dvec3 behind = normalize3(cross3(v[1] - v[0], v[2] - v[0]), dvec3(0)) * (0.01 * far * (t.bits & kTriangleFlipped ? 1 : -1));
+    const dvec3 behind =
+        normalize3(cross3(v[1] - v[0], v[2] - v[0]), dvec3(0)) * (0.01 * far * (t.bits & kTriangleFlipped ? 1 : -1));
     for (int k = 0; k < 3; ++k) camera.eye[k] += behind[k];
     compare(scene, camera, settings, clusters, dropped);
     if (HasFatalFailure()) FAIL() << "round " << n;
@@ -271,7 +130,9 @@ TEST(RasterClusters, AStackSeenFromTheHindmostPlaneIsDecidedByItsOwnTest) {
     const double scale = std::exp2(random.uniform(-20, 20));
     const auto turn = random_turn(random);
     for (uint32_t i = 0; i < kClusterTriangles; ++i) {
-      const dvec3 at = (turn[0] * random.uniform(-0.1, 0.1) + turn[1] * random.uniform(-0.1, 0.1) + turn[2] * random.uniform(-1, i == 0 ? -0.99 : 1)) * scale;
+      const dvec3 at = (turn[0] * random.uniform(-0.1, 0.1) + turn[1] * random.uniform(-0.1, 0.1) +
+                        turn[2] * random.uniform(-1, i == 0 ? -0.99 : 1)) *
+                       scale;
       const dvec3 corner[3] = {at, at + turn[0] * (scale * 0.1), at + turn[1] * (scale * 0.1)};
       for (uint32_t k = 0; k < 3; ++k) put(corner[k], scene.vertices[3 * i + k]);
       scene.triangles[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, 0};
@@ -280,12 +141,16 @@ TEST(RasterClusters, AStackSeenFromTheHindmostPlaneIsDecidedByItsOwnTest) {
     const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
     double hindmost = 1e30;
     uint32_t last = 0;
-    const auto at = [&](uint32_t v) { return dvec3(scene.vertices[v].position[0], scene.vertices[v].position[1], scene.vertices[v].position[2]); };
+    const auto at = [&](uint32_t v) {
+      return dvec3(scene.vertices[v].position[0], scene.vertices[v].position[1], scene.vertices[v].position[2]);
+    };
     for (uint32_t i = 0; i < kClusterTriangles; ++i)
       if (dot3(at(3 * i), turn[2]) < hindmost) hindmost = dot3(at(3 * i), turn[2]), last = 3 * i;
-    const dvec3 across = at(last + 1) - at(last), along = at(last + 2) - at(last), center(clusters.center[0][0], clusters.center[1][0], clusters.center[2][0]);
+    const dvec3 across = at(last + 1) - at(last), along = at(last + 2) - at(last),
+                center(clusters.center[0][0], clusters.center[1][0], clusters.center[2][0]);
     const dvec3 toward = center - at(last);
-    const dvec3 eye = at(last) + across * (dot3(toward, across) / dot3(across, across) + random.uniform(-1e-3, 1e-3)) + along * (dot3(toward, along) / dot3(along, along));
+    const dvec3 eye = at(last) + across * (dot3(toward, across) / dot3(across, across) + random.uniform(-1e-3, 1e-3)) +
+                      along * (dot3(toward, along) / dot3(along, along));
     Camera camera = camera_at(eye, center, scale * 1e-6);
     camera.fov_y_degrees = 170;
     Settings settings = test_settings(64, 64, Isa::kAuto, 1);
@@ -306,25 +171,30 @@ TEST(RasterClusters, HiddenOnesShowNothing) {
   Parallel parallel(1);
   for (int n = 0; n < 1500; ++n) {
     const double scale = std::exp2(random.uniform(-20, 20));
-    const dvec3 eye = random.below(3) ? unit(random) * std::exp2(random.uniform(-20, 4)) * scale : dvec3(0), forward = unit(random);
+    const dvec3 eye = random.below(3) ? unit(random) * std::exp2(random.uniform(-20, 4)) * scale : dvec3(0),
+                forward = unit(random);
     Patches patches(static_cast<uint32_t>(n), kClusters);
     SceneData& scene = patches.scene();
     Material mask;
     mask.transparency = static_cast<int32_t>(MaterialTransparency::kScreenDoor), mask.opacity = 0.5f;
     scene.materials = {Material(), translucent_material(), mask};
     const dvec3 wall = eye + forward * scale;
-    const dvec3 normal = normalize3(unit(random) * 0.99 - forward, dvec3(0, 1, 0)), side = normalize3(cross3(normal, unit(random)), dvec3(1, 0, 0)), up = cross3(normal, side);
+    const dvec3 normal = normalize3(unit(random) * 0.99 - forward, dvec3(0, 1, 0)),
+                side = normalize3(cross3(normal, unit(random)), dvec3(1, 0, 0)), up = cross3(normal, side);
     for (size_t c = 0; c < kClusters; ++c) {
       const dvec3 on_wall = wall + (side * random.uniform(-1, 1) + up * random.uniform(-1, 1)) * (scale * 1.5);
       const double depth = random.uniform(-1, 0.1) * std::exp2(random.uniform(-24, 3));
       patches.place_one(c, on_wall + normal * (depth * scale), scale * std::exp2(random.uniform(-24, -3)));
     }
-    for (size_t i = kClusterTriangles; i < scene.triangles.size(); ++i) scene.triangles[i].bits |= static_cast<uint32_t>(random.below(9) ? 0 : random.below(3));
+    for (size_t i = kClusterTriangles; i < scene.triangles.size(); ++i)
+      scene.triangles[i].bits |= static_cast<uint32_t>(random.below(9) ? 0 : random.below(3));
     // Large ones among the triangles of the first cluster.
     const int walls = random.between(1, 4);
+    for (size_t k = 0; k < kClusterTriangles; ++k) scene.triangles[k] = {{60, 60, 60}, 0};
     for (int w = 0; w < walls; ++w) {
       const uint32_t first = static_cast<uint32_t>(w) * 4;
-      const double size = scale * random.uniform(0.5, 12), tilt = w == 0 ? 0 : random.uniform(-1, 1) * std::exp2(random.uniform(-20, 0));
+      const double size = scale * random.uniform(0.5, 12),
+                   tilt = w == 0 ? 0 : random.uniform(-1, 1) * std::exp2(random.uniform(-20, 0));
       const dvec3 a = side + normal * tilt;
       put(wall - a * size - up * size, scene.vertices[first]), put(wall + a * size - up * size, scene.vertices[first + 1]);
       put(wall + a * size + up * size, scene.vertices[first + 2]), put(wall - a * size + up * size, scene.vertices[first + 3]);
@@ -335,14 +205,57 @@ TEST(RasterClusters, HiddenOnesShowNothing) {
     for (size_t i = 0; i < kClusterTriangles; ++i) order_vertices(scene.vertices, scene.triangles[i]);
     const auto isas = supported_isas();
     constexpr int kSamples[] = {1, 1, 4, 16};
-    Settings settings = test_settings(random.between(16, 200), random.between(16, 200), isas[static_cast<size_t>(random.below(static_cast<int>(isas.size())))], 1);
+    Settings settings = test_settings(random.between(16, 200), random.between(16, 200),
+                                      isas[static_cast<size_t>(random.below(static_cast<int>(isas.size())))], 1);
     settings.culling = random.below(8) ? Culling::kNone : Culling::kBack, settings.samples = kSamples[random.below(4)];
     Camera camera = camera_at(eye, eye + (forward + unit(random) * 0.2) * scale, scale * std::exp2(random.uniform(-12, -1)));
     camera.fov_y_degrees = random.uniform(5, 120);
     compare(scene, camera, settings, make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel), seen);
     if (HasFatalFailure()) FAIL() << "round " << n;
   }
-  EXPECT_GT(seen.hidden, seen.clusters / 20);
+  EXPECT_GT(seen.hidden, 800u);
+}
+
+// A wall before all patches but one, of each kind.
+TEST(RasterClusters, OnlyOpaqueWallsThatAreSeenHide) {
+  struct Case {
+    uint32_t bits;  // of the wall
+    Culling culling;
+    bool hides;
+  };
+  constexpr Case kCases[] = {{0, Culling::kNone, true},  {kTriangleFlipped, Culling::kNone, true},
+                             {1, Culling::kNone, false}, {2, Culling::kNone, false},
+                             {0, Culling::kBack, true},  {kTriangleFlipped, Culling::kBack, false}};
+  constexpr int kClusters = 40;
+  Patches patches(12, kClusters);
+  SceneData& scene = patches.scene();
+  Material mask;
+  mask.transparency = static_cast<int32_t>(MaterialTransparency::kScreenDoor), mask.opacity = 0.5f;
+  scene.materials = {Material(), translucent_material(), mask};
+  Parallel parallel(1);
+  for (const Case& c : kCases) {
+    for (size_t i = 0; i < kClusters; ++i)
+      patches.place_one(i, {0.3 * static_cast<double>(i % 8) - 1, 0.3, i == 1 ? -2 : -6}, 0.01);
+    for (Vertex& v : scene.vertices)
+      if (!std::isfinite(v.position[0] + v.position[1] + v.position[2]))
+        std::memcpy(v.position, scene.vertices[&v == &scene.vertices[0]].position, 12);
+    const dvec3 corner[] = {{-20, -20, -4}, {20, -20, -4}, {0, 20, -4}};
+    for (int i = 0; i < 3; ++i) put(corner[i], scene.vertices[static_cast<size_t>(i)]);
+    for (size_t k = 1; k < kClusterTriangles; ++k) scene.triangles[k] = {{60, 60, 60}, 0};
+    scene.triangles[0] = {{0, 1, 2}, c.bits & kTriangleMaterialMask};
+    order_vertices(scene.vertices, scene.triangles[0]);
+    scene.triangles[0].bits ^= c.bits & kTriangleFlipped;
+    const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
+    Settings settings = test_settings(640, 480);
+    settings.culling = c.culling;
+    Seen seen;
+    compare(scene, camera_at({0, 0, 0}, {0, 0, -1}), settings, clusters, seen);
+    EXPECT_EQ(seen.hidden > 10, c.hides) << c.bits;
+    // Patches that face away may be dropped before.
+    if (c.hides) {
+      EXPECT_GE(seen.hidden + seen.back_face, uint64_t{kClusters - 2}) << c.bits;
+    }
+  }
 }
 
 TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
@@ -353,7 +266,8 @@ TEST(RasterClusters, NeverDropWhatMovesNorWhatIsNotFinite) {
     if (!std::isfinite(v.position[0] + v.position[1] + v.position[2])) v = Vertex{};
   scene.vertices[scene.triangles[20 * kClusterTriangles].vertex[1]].position[1] = std::nanf("");
   Parallel parallel(2);
-  const std::vector<MovingRun> moving = {{0, 1, 0}, {5 * kClusterTriangles - 1, 2, 0}, {30 * kClusterTriangles, 2 * kClusterTriangles, 0}};
+  const std::vector<MovingRun> moving = {
+      {0, 1, 0}, {5 * kClusterTriangles - 1, 2, 0}, {30 * kClusterTriangles, 2 * kClusterTriangles, 0}};
   const Clusters clusters = make_clusters(scene, moving, resolve_isa(Isa::kAuto), parallel);
   Settings settings = test_settings(50, 50);
   const auto t = make_test_frame(SceneData(), camera_at({0, 0, 9}, {0, 0, 10}), settings);
@@ -374,7 +288,8 @@ TEST(RasterClusters, ScatteredTrianglesAreDrawnWhole) {
   patches.place(dvec3(0), 1);
   SceneData& scene = patches.scene();
   for (const size_t shuffled : {size_t{6400}, scene.triangles.size()}) {
-    for (size_t i = shuffled - 1; i > 0; --i) std::swap(scene.triangles[i], scene.triangles[static_cast<size_t>(random.below(static_cast<int>(i + 1)))]);
+    for (size_t i = shuffled - 1; i > 0; --i)
+      std::swap(scene.triangles[i], scene.triangles[static_cast<size_t>(random.below(static_cast<int>(i + 1)))]);
     for (const int threads : {1, 2}) {
       Parallel parallel(threads);
       const Clusters clusters = make_clusters(scene, {}, resolve_isa(Isa::kAuto), parallel);
@@ -398,11 +313,14 @@ TEST(RasterClusters, AreTheSameOnEveryInstructionSetAndThread) {
   const Clusters clusters = make_clusters(patches.scene(), {}, Isa::kScalar, one);
   for (const Isa isa : supported_isas()) {
     const Clusters again = make_clusters(patches.scene(), {}, isa, two);
-    const auto same = [&](const AlignedBuffer<float>& a, const AlignedBuffer<float>& b) { return std::memcmp(a.data(), b.data(), 4 * clusters.count()) == 0; };
+    const auto same = [&](const AlignedBuffer<float>& a, const AlignedBuffer<float>& b) {
+      return std::memcmp(a.data(), b.data(), 4 * clusters.count()) == 0;
+    };
     EXPECT_EQ(0, std::memcmp(clusters.blocks.data(), again.blocks.data(), clusters.count() * sizeof(ClusterBlocks)));
     EXPECT_TRUE(same(clusters.cosine, again.cosine) && same(clusters.sine, again.sine) && same(clusters.offset, again.offset));
     for (int a = 0; a < 3; ++a)
-      EXPECT_TRUE(same(clusters.center[a], again.center[a]) && same(clusters.half[a], again.half[a]) && same(clusters.axis[a], again.axis[a]));
+      EXPECT_TRUE(same(clusters.center[a], again.center[a]) && same(clusters.half[a], again.half[a]) &&
+                  same(clusters.axis[a], again.axis[a]));
   }
   std::vector<uint8_t> want;
   for (const Isa isa : supported_isas())
@@ -418,7 +336,8 @@ TEST(RasterClusters, AreTheSameOnEveryInstructionSetAndThread) {
       if (want.empty()) want = got;
       EXPECT_EQ(got, want) << static_cast<int>(isa);
     }
-  for (const uint8_t fate : {kClusterKept, kClusterOutside, kClusterBackFace}) EXPECT_GT(std::count(want.begin(), want.end(), fate), 100);
+  for (const uint8_t fate : {kClusterKept, kClusterOutside, kClusterBackFace})
+    EXPECT_GT(std::count(want.begin(), want.end(), fate), 100);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Frames of a renderer, which drops clusters, against the rasterizer without any: whatever was rendered before, with parts that move.
+// Frames of a renderer, which drops clusters, against the rasterizer without any: whatever was rendered before, with parts that
+// move.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -150,7 +150,8 @@ void clip_triangle(const Frame& frame, const ScreenVertices& vertices, uint32_t 
   TriangleClipper(frame, vertices, chunk, counts).process(primitive);
 }
 
-void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts, const ClusterFates* fates) {
+void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts,
+                    const ClusterFates* fates) {
   const size_t n = frame.scene->triangles.size();
   const size_t share = (n + kMaxChunks - 1) / kMaxChunks;
   const size_t chunk_size = std::max(kMinChunk, (share + kClusterTriangles - 1) / kClusterTriangles * kClusterTriangles);
@@ -162,8 +163,8 @@ void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins
     chunk.triangles.clear(), chunk.tile_box.clear();
     chunk.has_translucent = false;
     kClipRange[isa_index(frame.isa)](frame, vertices, static_cast<uint32_t>(i * chunk_size),
-                                     static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)), fates == nullptr ? nullptr : fates->fate.data(),
-                                     chunk, chunk_counts[i]);
+                                     static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)),
+                                     fates == nullptr ? nullptr : fates->fate.data(), chunk, chunk_counts[i]);
   });
   for (const FrameCounts& c : chunk_counts) {
     counts.triangles_in += c.triangles_in;

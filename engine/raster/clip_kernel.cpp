@@ -27,10 +27,10 @@ class RangeClipper {
       : frame_(frame), scene_(*frame.scene), vertices_(vertices), chunk_(chunk), counts_(counts) {}
 
   void run(uint32_t begin, uint32_t end, const uint8_t* fate) {
-    if (fate == nullptr) keep(begin, end);
-    for (uint32_t first = begin; fate != nullptr && first < end; first += kClusterTriangles) {
-      const uint32_t last = std::min(end, first + kClusterTriangles);
-      const uint8_t what = fate[first / kClusterTriangles];
+    for (uint32_t first = begin, last; first < end; first = last) {
+      const uint8_t what = fate == nullptr ? uint8_t{kClusterKept} : fate[first / kClusterTriangles];
+      for (last = first; last < end && (fate == nullptr || fate[last / kClusterTriangles] == what);) last += kClusterTriangles;
+      last = std::min(last, end);
       if (what == kClusterKept) {
         keep(first, last);
         continue;
@@ -207,8 +207,8 @@ class RangeClipper {
   alignas(64) Queue queue_ = {};
 };
 
-void clip_range(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end, const uint8_t* fate, BinChunk& chunk,
-                FrameCounts& counts) {
+void clip_range(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end, const uint8_t* fate,
+                BinChunk& chunk, FrameCounts& counts) {
   RangeClipper(frame, vertices, chunk, counts).run(begin, end, fate);
 }
 

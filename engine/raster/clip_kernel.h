@@ -4,8 +4,8 @@
 
 namespace spanray {
 
-// Appends what is drawn of primitives [begin, end), and adds to counts. fate: ClusterFate of each cluster of the scene; begin is the first
-// primitive of one. nullptr: all are kept.
+// Appends what is drawn of primitives [begin, end), and adds to counts. fate: ClusterFate of each cluster of the scene, or
+// nullptr: all are kept. begin is the first primitive of a cluster.
 using ClipRangeFn = void (*)(const Frame& frame, const ScreenVertices& vertices, uint32_t begin, uint32_t end,
                              const uint8_t* fate, BinChunk& chunk, FrameCounts& counts);
 extern const ClipRangeFn kClipRange[kIsaCount];

@@ -43,7 +43,9 @@ class ClusterTester {
   }
 
  private:
-  struct Bounds { F64 low, high, most; };  // most: above all magnitudes on the way, here and of each vertex
+  struct Bounds {
+    F64 low, high, most;
+  };  // most: above all magnitudes on the way, here and of each vertex
 
   // Of dot(row, v - eye) for all v in the box.
   Bounds bounds(const glm::dvec3& row) const {
@@ -53,8 +55,8 @@ class ClusterTester {
     return {middle - reach, middle + reach, a(row.x) * reach_[0] + a(row.y) * reach_[1] + a(row.z) * reach_[2]};
   }
 
-  // The comparisons of outcodes() in transform_kernel.cpp, for all vertices of a cluster. What is computed for a vertex is off by less than
-  // 2^-49 of `most` of what is compared, what is computed here by as little.
+  // The comparisons of outcodes() in transform_kernel.cpp, for all vertices of a cluster. What is computed for a vertex is off
+  // by less than 2^-49 of `most` of what is compared, what is computed here by as little.
   Mask is_outside() const {
     const F64 margin = f64(0x1p-40), zero = f64(0.0);
     const Bounds x = bounds(primary_.pixel_row_x), y = bounds(primary_.pixel_row_y), w = bounds(primary_.forward);
@@ -64,14 +66,15 @@ class ClusterTester {
     const F64 margin_y = (y.most + w.most * f64(primary_.height)) * margin + least;
     // Not invalid, any of them. Infinite boxes end here.
     const Mask finite = x.most + y.most + w.most * f64(kGuardBandPixels) < f64(1e300);
-    const Mask off = (w.high + w.most * margin + least < f64(primary_.near_plane)) | (x.high + margin_x < zero) | (zero < right.low - margin_x) |
-                     (y.high + margin_y < zero) | (zero < bottom.low - margin_y);
+    const Mask off = (w.high + w.most * margin + least < f64(primary_.near_plane)) | (x.high + margin_x < zero) |
+                     (zero < right.low - margin_x) | (y.high + margin_y < zero) | (zero < bottom.low - margin_y);
     return finite & off;
   }
 
   // For a unit normal N of a triangle with corner v: N . (eye - v) = N . (eye - center) + N . (center - v)
-  // <= |eye - center| cos(angle of axis and eye - center, less that of the cone) + offset = x cosine + y sine + offset. facing() is off by
-  // less than 2^-50 |N| |eye - v|, this by as little; clusters.cpp has added what the stored numbers are off.
+  // <= |eye - center| cos(angle of axis and eye - center, less that of the cone) + offset = x cosine + y sine + offset.
+  // facing() is off by less than 2^-50 |N| |eye - v|, this by as little; clusters.cpp has added what the stored numbers are
+  // off.
   Mask is_back_face(size_t first) const {
     F64 axis[3];
     for (int a = 0; a < 3; ++a) axis[a] = to_f64(F32::load(clusters_.axis[a].data() + first));
@@ -87,14 +90,17 @@ class ClusterTester {
     return (most < -(reach * f64(0x1p-40)) - f64(1e-140)) & (reach < f64(1e100));
   }
 
-  // Of dot(row, v - eye) / W, in pixels, for all v in the box, and the blocks that they are in. A sample that a triangle covers lies within its
-  // box of snapped corners, 1/256 pixel farther out at most.
-  struct Blocks { I32 first, last; };
+  // Of dot(row, v - eye) / W, in pixels, for all v in the box, and the blocks that they are in. A sample that a triangle covers
+  // lies within its box of snapped corners, 1/256 pixel farther out at most.
+  struct Blocks {
+    I32 first, last;
+  };
   Blocks blocks_of(const glm::dvec3& row, const Bounds& w, F64 w_low, int pixels) const {
     const F64 zero = f64(0.0), middle = f64(0.5 * pixels), limit = f64(1e6);
     const Bounds b = bounds(row);
     const F64 margin = (b.most + w.most) * f64(0x1p-30) / w_low + f64(1.0 / 64);
-    const F64 low = middle + b.low / select_lt(b.low, zero, w_low, w.high) - margin, high = middle + b.high / select_lt(zero, b.high, w_low, w.high) + margin;
+    const F64 low = middle + b.low / select_lt(b.low, zero, w_low, w.high) - margin,
+              high = middle + b.high / select_lt(zero, b.high, w_low, w.high) + margin;
     const auto block = [&](F64 x) HWY_ATTR { return shift_right<kBlockBits>(floor_of(min_(max_(x, -limit), limit))); };
     return {max_(block(low), I32::zero()), min_(block(high), i32((pixels - 1) >> kBlockBits))};
   }
@@ -106,7 +112,8 @@ class ClusterTester {
     const F64 w_low = w.low - w.most * f64(0x1p-40);
     const Mask in_front = f64(primary_.near_plane) < w_low;
     const F64 safe = select(in_front, w_low, f64(1.0));
-    const Blocks columns = blocks_of(middle_row_x_, w, safe, primary_.width), rows = blocks_of(middle_row_y_, w, safe, primary_.height);
+    const Blocks columns = blocks_of(middle_row_x_, w, safe, primary_.width),
+                 rows = blocks_of(middle_row_y_, w, safe, primary_.height);
     const F32 nearest = to_f32(f64(primary_.near_plane * (1 + 0x1p-20)) / safe);
     const Mask may = in_front & (w.most < f64(1e100)) & !(columns.last < columns.first) & !(rows.last < rows.first);
     int32_t x0[16], x1[16], y0[16], y1[16];
@@ -128,7 +135,8 @@ class ClusterTester {
   F64 from_eye_[3], half_[3], reach_[3];
 };
 
-void test_clusters(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders, size_t begin, size_t end, uint8_t* fate) {
+void test_clusters(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders, size_t begin, size_t end,
+                   uint8_t* fate) {
   ClusterTester tester(frame, clusters, occluders);
   for (size_t i = begin; i < end; i += kLanes) tester.test(i, fate + i);
 }

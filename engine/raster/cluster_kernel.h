@@ -12,8 +12,8 @@ extern const MakeClustersFn kMakeClusters[kIsaCount];
 ClusterBlocks collect_blocks(const int32_t block[3][kClusterTriangles], int count);
 
 // ClusterFate of clusters [begin, end), to fate[begin] and on; begin is a multiple of 16. May write up to 15 entries past end.
-using TestClustersFn = void (*)(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders, size_t begin, size_t end,
-                                uint8_t* fate);
+using TestClustersFn = void (*)(const Frame& frame, const Clusters& clusters, const OccluderDepths& occluders, size_t begin,
+                                size_t end, uint8_t* fate);
 extern const TestClustersFn kTestClusters[kIsaCount];
 
 }  // namespace spanray

@@ -63,7 +63,10 @@ std::vector<uint32_t> find_large(const SceneData& scene, const Clusters& cluster
     }
     least += (high[a] - low[a]) * (high[a] - low[a]) / 1000;
   }
-  struct Large { double area; uint32_t primitive; };
+  struct Large {
+    double area;
+    uint32_t primitive;
+  };
   std::vector<Large> found;
   for (size_t i = 0; i < clusters.count(); ++i) {
     if (!(clusters.area[i] * 1.001 >= least)) continue;
@@ -73,7 +76,8 @@ std::vector<uint32_t> find_large(const SceneData& scene, const Clusters& cluster
       if (area >= least) found.push_back({area, static_cast<uint32_t>(t)});
     }
   }
-  std::sort(found.begin(), found.end(), [](const Large& a, const Large& b) { return a.area != b.area ? a.area > b.area : a.primitive < b.primitive; });
+  std::sort(found.begin(), found.end(),
+            [](const Large& a, const Large& b) { return a.area != b.area ? a.area > b.area : a.primitive < b.primitive; });
   found.resize(std::min(found.size(), kMostOccluders));
   std::vector<uint32_t> out;
   for (const Large& l : found) out.push_back(l.primitive);
@@ -90,7 +94,8 @@ ClusterBlocks collect_blocks(const int32_t block[3][kClusterTriangles], int coun
 }
 
 size_t Clusters::memory_bytes() const {
-  size_t bytes = cosine.bytes() + sine.bytes() + offset.bytes() + blocks.bytes() + area.bytes() + large.capacity() * sizeof(uint32_t);
+  size_t bytes =
+      cosine.bytes() + sine.bytes() + offset.bytes() + blocks.bytes() + area.bytes() + large.capacity() * sizeof(uint32_t);
   for (int a = 0; a < 3; ++a) bytes += center[a].bytes() + half[a].bytes() + axis[a].bytes();
   return bytes;
 }

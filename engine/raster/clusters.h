@@ -1,9 +1,10 @@
-// Runs of consecutive triangles that are dropped together, before their vertices are transformed: what lies outside the picture, what turns
-// its back on the eye, and what lies behind something large (raster/occluders.h).
-// Source:   bounding boxes and normal cones: Shirmun and Abi-Ezzi 1993, "The Cone of Normals Technique for Fast Processing of Curved
-//           Patches"; clusters: Haar and Aaltonen 2015, "GPU-Driven Rendering Pipelines".
-// Contract: a cluster is dropped only if the tests of each triangle (clip_kernel.cpp) would drop all of its triangles, or the depth test all
-//           of its fragments, with margins above all rounding. No pixel depends on clusters (DESIGN 3, rule 6), and the same ones are dropped on every instruction set.
+// Runs of consecutive triangles that are dropped together, before their vertices are transformed: what lies outside the
+// picture, what turns its back on the eye, and what lies behind something large (raster/occluders.h).
+// Source:   normal cones: Shirman and Abi-Ezzi 1993, "The Cone of Normals Technique for Fast Processing of Curved Patches";
+//           clusters: Haar and Aaltonen 2015, "GPU-Driven Rendering Pipelines".
+// Contract: a cluster is dropped only if the tests of each triangle (clip_kernel.cpp) would drop all of its triangles, or the
+//           depth test all of its fragments, with margins above all rounding. No pixel depends on clusters (DESIGN 3, rule 6),
+//           and the same ones are dropped on every instruction set.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,23 +15,26 @@
 
 namespace spanray {
 
-inline constexpr uint32_t kClusterTriangles = 64;      // a multiple of all vectors' lanes
-inline constexpr uint32_t kBlockVertices = 64;         // what is transformed or not: consecutive vertices
-inline constexpr uint32_t kFewTriangles = 4096;        // scenes up to here have no use for clusters
+inline constexpr uint32_t kClusterTriangles = 64;  // a multiple of all vectors' lanes
+inline constexpr uint32_t kBlockVertices = 64;     // what is transformed or not: consecutive vertices
+inline constexpr uint32_t kFewTriangles = 4096;    // scenes up to here have no use for clusters
 
 // Blocks of vertices [first, end).
-struct BlockRun { uint32_t first, end; };
+struct BlockRun {
+  uint32_t first, end;
+};
 
 // What a cluster's triangles use. Few runs, which may hold blocks that none uses.
 struct ClusterBlocks {
   static constexpr int kMostRuns = 4;
   static constexpr uint32_t kMostBlocks = 32;
   BlockRun run[kMostRuns];
-  uint32_t runs;       // 0: scattered over more than kMostBlocks
+  uint32_t runs;  // 0: scattered over more than kMostBlocks
 };
 
-// Of all clusters of a scene, made once. One array a number, so that lanes are clusters. Where `half` is infinite, a cluster is never
-// dropped: one that holds moving triangles or positions that are not finite. Where `offset` is infinite, it is never dropped as facing away.
+// Of all clusters of a scene, made once. One array a number, so that lanes are clusters. Where `half` is infinite, a cluster is
+// never dropped: one that holds moving triangles or positions that are not finite. Where `offset` is infinite, it is never
+// dropped as facing away.
 struct Clusters {
   size_t triangles = 0, vertices = 0;
   AlignedBuffer<float> center[3], half[3];  // all vertices lie in center +- half
@@ -38,7 +42,7 @@ struct Clusters {
   // N . (center - v) <= offset. sine: of the same angle, less than a right one.
   AlignedBuffer<float> axis[3], cosine, sine, offset;
   AlignedBuffer<ClusterBlocks> blocks;
-  size_t scattered = 0;  // clusters
+  size_t scattered = 0;         // clusters
   AlignedBuffer<float> area;    // of the largest triangle, twice
   std::vector<uint32_t> large;  // the largest triangles of the scene, at most kMostOccluders
 

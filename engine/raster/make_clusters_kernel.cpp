@@ -32,7 +32,8 @@ class ClusterMaker {
   }
 
  private:
-  // Normals as unturned_facing() has them, bit for bit, turned to the front; the bounds of all corners. Past the last triangle, that again.
+  // Normals as unturned_facing() has them, bit for bit, turned to the front; the bounds of all corners. Past the last triangle,
+  // that again.
   void read() {
     const uint32_t* const triangle = scene_.triangles.data()->vertex;
     const float* const position = scene_.vertices.data()->position;
@@ -68,7 +69,8 @@ class ClusterMaker {
     constexpr int kNear = 3;
     I32 least = I32::load(block_[0]), most = least;
     for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < count_; i += kLanes) least = min_(least, I32::load(block_[k] + i)), most = max_(most, I32::load(block_[k] + i));
+      for (int i = 0; i < count_; i += kLanes)
+        least = min_(least, I32::load(block_[k] + i)), most = max_(most, I32::load(block_[k] + i));
     const int first = lane_min(least), last = -lane_min(I32::zero() - most);
     I32 end_low = i32(first), begin_high = i32(last);
     Mask between = first_lanes(0);
@@ -80,7 +82,8 @@ class ClusterMaker {
         end_low = select(low, max_(end_low, block), end_low), begin_high = select(high, min_(begin_high, block), begin_high);
       }
     if (any(between)) return collect_blocks(block_, count_);
-    const uint32_t low_end = static_cast<uint32_t>(-lane_min(I32::zero() - end_low)) + 1, high_begin = static_cast<uint32_t>(lane_min(begin_high));
+    const uint32_t low_end = static_cast<uint32_t>(-lane_min(I32::zero() - end_low)) + 1,
+                   high_begin = static_cast<uint32_t>(lane_min(begin_high));
     ClusterBlocks out{};
     out.run[0] = {static_cast<uint32_t>(first), low_end}, out.runs = 1;
     if (static_cast<uint32_t>(last) >= low_end) out.run[1] = {high_begin, static_cast<uint32_t>(last) + 1}, out.runs = 2;
@@ -104,13 +107,15 @@ class ClusterMaker {
     for (int i = 0; i < count_; ++i) sum.x += normal_[0][i], sum.y += normal_[1][i], sum.z += normal_[2][i];
     const glm::dvec3 unit = normalize3(sum, glm::dvec3(0));
     float axis[3];
-    for (int a = 0; a < 3; ++a) axis[a] = out_.axis[a][cluster] = static_cast<float>(unit[a]), center[a] = out_.center[a][cluster];
+    for (int a = 0; a < 3; ++a)
+      axis[a] = out_.axis[a][cluster] = static_cast<float>(unit[a]), center[a] = out_.center[a][cluster];
     const Dvec3Lanes axes = splat(glm::dvec3(axis[0], axis[1], axis[2])), middle = splat(center);
     const F64 zero = f64(0.0), one = f64(1.0);
     F64 cosines = one, offsets = zero, squares = one, largest = zero;  // the least, the greatest, the least, the greatest
     for (int i = 0; i < count_; i += kLanes) {
       const Dvec3Lanes n = {F64::load(normal_[0] + i), F64::load(normal_[1] + i), F64::load(normal_[2] + i)};
-      const Dvec3Lanes corner = {to_f64(F32::load(corner_[0] + i)), to_f64(F32::load(corner_[1] + i)), to_f64(F32::load(corner_[2] + i))};
+      const Dvec3Lanes corner = {to_f64(F32::load(corner_[0] + i)), to_f64(F32::load(corner_[1] + i)),
+                                 to_f64(F32::load(corner_[2] + i))};
       const F64 square = dot3(n, n), scale = one / sqrt_(square);
       cosines = min_(cosines, select_eq(square, zero, one, dot3(n, axes) * scale));
       offsets = max_(offsets, select_eq(square, zero, zero, dot3(n, middle - corner) * scale));
@@ -137,8 +142,9 @@ class ClusterMaker {
     return *std::min_element(lane, lane + kLanes);
   }
 
-  // Above what the stored floats are off: |axis| by 2^-24, cosine and sine by 2^-25, offset by 2^-24 of itself. A cone that is wider by so much
-  // has 2^-21 |x| more (of x, y and f in cluster_kernel.cpp) and 2^-21 y cosine / sine; where a cluster is dropped, offset < |x|.
+  // Above what the stored floats are off: |axis| by 2^-24, cosine and sine by 2^-25, offset by 2^-24 of itself. A cone that is
+  // wider by so much has 2^-21 |x| more (of x, y and f in cluster_kernel.cpp) and 2^-21 y cosine / sine; where a cluster is
+  // dropped, offset < |x|.
   static constexpr double kCosineMargin = 0x1p-21;
   static constexpr double kLeastCosine = 0.25;  // wider cones drop nothing
   static constexpr int kBlockBits = 6;

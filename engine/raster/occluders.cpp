@@ -41,9 +41,12 @@ class RowOfBlocks {
       const int64_t dx = (x_[b] - x_[a]) * sign_, dy = (y_[b] - y_[a]) * sign_;
       // dx (y - y_a) - dy (x - x_a) >= 1 at the corner that lies farthest outside.
       const int64_t room = dx * ((dx > 0 ? top : bottom) - y_[a]) - 1;
-      if (dy > 0) last = std::min(last, floor_divide(x_[a] + floor_divide(room, dy), kBlock_24_8) - 1);
-      else if (dy < 0) first = std::max(first, -floor_divide(floor_divide(room, -dy) - x_[a], kBlock_24_8));
-      else if (room < 0) last = first - 1;
+      if (dy > 0)
+        last = std::min(last, floor_divide(x_[a] + floor_divide(room, dy), kBlock_24_8) - 1);
+      else if (dy < 0)
+        first = std::max(first, -floor_divide(floor_divide(room, -dy) - x_[a], kBlock_24_8));
+      else if (room < 0)
+        last = first - 1;
     }
   }
 
@@ -52,11 +55,13 @@ class RowOfBlocks {
   int64_t sign_;
 };
 
-// A lower bound of all depths that the triangle has in a block, in double with a margin above what the walkers' arithmetic is off.
+// A lower bound of all depths that the triangle has in a block, in double with a margin above what the walkers' arithmetic is
+// off.
 class BlockDepth {
  public:
   BlockDepth(const DepthPlane& plane, const Frame& frame) : plane_(plane) {
-    margin_ = (std::fabs(plane.depth0) + std::fabs(plane.dx) * frame.grid.width + std::fabs(plane.dy) * frame.grid.height) * 0x1p-40;
+    margin_ =
+        (std::fabs(plane.depth0) + std::fabs(plane.dx) * frame.grid.width + std::fabs(plane.dy) * frame.grid.height) * 0x1p-40;
   }
   float at(int64_t column, int row) const {
     constexpr int kBlock = OccluderDepths::kBlock;

@@ -1,7 +1,8 @@
-// What the largest opaque triangles hide, in blocks of 16 x 16 pixels: clusters behind them are dropped before their vertices are transformed.
+// What the largest opaque triangles hide, in blocks of 16 x 16 pixels: clusters behind them are dropped before their vertices
+// are transformed.
 // Source:   Greene, Kass and Miller 1993, "Hierarchical Z-Buffer Visibility": a box whose nearest point lies behind is not seen.
-// Contract: depth of a block: every fragment of its pixels that is seen lies there or nearer, at every sample. What is strictly behind wins no
-//           pixel and is no layer of one, so that dropping it changes nothing but counts (DESIGN 3, rule 6).
+// Contract: depth of a block: every fragment of its pixels that is seen lies there or nearer, at every sample. What is strictly
+//           behind wins no pixel and is no layer of one, so dropping it changes nothing but counts (DESIGN 3, rule 6).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,8 +14,8 @@ namespace spanray {
 struct OccluderDepths {
   static constexpr int kBlock = 16;  // pixels
   int columns = 0, rows = 0;
-  bool any = false;             // some block has a depth
-  AlignedBuffer<float> depth;   // reversed z, row-major; 0: nothing known
+  bool any = false;            // some block has a depth
+  AlignedBuffer<float> depth;  // reversed z, row-major; 0: nothing known
 
   // Whether blocks of columns [x0, x1] and rows [y0, y1] all have a depth above `nearest`.
   bool hides(int x0, int x1, int y0, int y1, float nearest) const {

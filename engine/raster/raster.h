@@ -5,13 +5,13 @@
 
 namespace spanray {
 
-// Vertices -> homogeneous pixels, snapped positions, outcodes. Parallel. With `fates`: only those blocks of vertices that clusters use which
-// are kept; what stands for the others is anything.
+// Vertices -> homogeneous pixels, snapped positions, outcodes. Parallel. With `fates`: only blocks of vertices that kept
+// clusters use; what stands for the others is anything.
 void transform_vertices(const Frame& frame, ScreenVertices& out, const ClusterFates* fates = nullptr);
 
-// Triangles -> screen triangles, in chunks, in order of primitives: drops invalid ones, culls (outside, back faces, no area after
-// snapping), clips in double with canonical edges, sets up the depth plane. Parallel. Fills chunk.triangles and counts. With `fates`:
-// only looks at clusters that are kept, counts the others' triangles; chunk.triangles are the same.
+// Triangles -> screen triangles, in chunks, in order of primitives: drops invalid ones, culls (outside, back faces, no area
+// after snapping), clips in double with canonical edges, sets up the depth plane. Parallel. Fills chunk.triangles and counts.
+// With `fates`: looks only at clusters that are kept, and counts the others' triangles.
 void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins& bins, FrameCounts& counts,
                     const ClusterFates* fates = nullptr);
 
