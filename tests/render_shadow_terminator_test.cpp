@@ -74,6 +74,14 @@ Lit count_lit(const Framebuffer& f, uint32_t below = kNoPrimitive) {
   return n;
 }
 
+uint64_t shadow_rays(const Scene& scene, const Settings& settings) {
+  Framebuffer frame;
+  const Result<FrameStats> stats = Renderer().render(scene, kFront, settings, frame);
+  for (const auto& [name, value] : stats.value().counts)
+    if (name == "rays_shadow") return value;
+  return 0;
+}
+
 const Shading kSmooth[] = {Shading::kGouraud, Shading::kPhong};
 
 // Where the blocks were: more of a coarse sphere is lit, nearly as much as of the true one, and what was lit stays as it was.
@@ -162,6 +170,8 @@ TEST(ShadowTerminator, FlatTrianglesKeepEveryBit) {
       const Framebuffer before = render(scene, kFront, off), after = render(scene, kFront, on);
       EXPECT_GT(count_lit(before).lit, 500u);
       EXPECT_EQ(before.radiance, after.radiance) << "tilt " << tilt;
+      EXPECT_GT(shadow_rays(scene, off), 500u);
+      EXPECT_EQ(shadow_rays(scene, off), shadow_rays(scene, on)) << "tilt " << tilt << ": nothing was lifted";
     }
   }
 }
