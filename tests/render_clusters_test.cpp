@@ -11,6 +11,7 @@
 #include "scene/pose.h"
 #include "spanray/render.h"
 #include "support/camera_at.h"
+#include "support/frame_count.h"
 #include "support/moving_scene.h"
 #include "support/random.h"
 #include "support/raster_front_end.h"
@@ -39,13 +40,6 @@ std::string write_room_with_ball(const TempFolder& folder) {
       obj << "f " << a << ' ' << b << ' ' << b + 1 << "\nf " << a << ' ' << b + 1 << ' ' << a + 1 << '\n';
     }
   return toml;
-}
-
-uint64_t count(const FrameStats& stats, const std::string& name) {
-  for (const auto& [key, value] : stats.counts)
-    if (key == name) return value;
-  ADD_FAILURE() << name;
-  return 0;
 }
 
 // The ladder's rung of all vertices.

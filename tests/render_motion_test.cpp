@@ -9,6 +9,7 @@
 #include "render/trace_pixel.h"
 #include "scene/pose.h"
 #include "spanray/render.h"
+#include "support/frame_count.h"
 #include "support/moving_scene.h"
 #include "support/scene_files.h"
 #include "support/test_frame.h"
@@ -20,13 +21,6 @@ Settings small(Visibility visibility = Visibility::kRaster, Shading shading = Sh
   Settings s;
   s.width = 120, s.height = 90, s.threads = 2, s.visibility = visibility, s.shading = shading;
   return s;
-}
-
-uint64_t count(const FrameStats& stats, const std::string& name) {
-  for (const auto& [key, value] : stats.counts)
-    if (key == name) return value;
-  ADD_FAILURE() << name;
-  return 0;
 }
 
 FrameStats render(Renderer& renderer, const Scene& scene, const Settings& settings, Framebuffer& out) {

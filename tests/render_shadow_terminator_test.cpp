@@ -5,57 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/reference.h"
 #include "render/plan.h"
 #include "render/trace_pixel.h"
-#include "support/bvh_oracle.h"
 #include "support/camera_at.h"
+#include "support/frame_count.h"
 #include "support/sample_pictures.h"
-#include "support/surface_oracle.h"
-#include "support/test_surfaces.h"
+#include "support/terminator_scenes.h"
 
 namespace spanray {
 namespace {
-
-constexpr int kSide = 96;
-
-Settings small(ShadowTerminator terminator) {
-  Settings s = test_settings(kSide, kSide);
-  s.shadow_terminator = terminator;
-  return s;
-}
-
-// A sphere of 20 * 4^levels triangles whose normals are those of the true sphere.
-std::vector<SoupTriangle> sphere(int levels, double radius, const glm::dvec3& at = glm::dvec3(0), uint32_t material = 0) {
-  const IndexedMesh mesh = make_sphere(levels);
-  std::vector<SoupTriangle> soup;
-  add_mesh(soup, mesh, radius, at, material);
-  for (SoupTriangle& t : soup)
-    for (Vertex& v : t.corner)
-      for (int k = 0; k < 3; ++k) v.normal[k] = static_cast<float>((v.position[k] - at[k]) / radius);
-  return soup;
-}
-
-Material matte() {
-  Material m;
-  for (int k = 0; k < 3; ++k) m.diffuse[k] = 1, m.ambient[k] = 0;
-  return m;
-}
-
-Light lamp(const glm::dvec3& at) {
-  Light light;
-  for (int k = 0; k < 3; ++k) light.position[k] = static_cast<float>(at[k]), light.intensity[k] = 40;
-  return light;
-}
-
-// Lights and nothing else: what is not lit is exactly black.
-Scene scene_of(const std::vector<SoupTriangle>& soup, const std::vector<Light>& lights, std::vector<Material> materials = {matte()}) {
-  auto data = std::make_shared<SceneData>(make_test_scene(soup, std::move(materials)));
-  data->lights = lights;
-  std::fill_n(data->background, 3, 0.0f);
-  hash_scene(*data);
-  return Scene(data);
-}
 
 const Light kSun = directional_light({0.96, 0.28, 0}), kLamp = lamp({3, 1, 0.4});
 const Camera kFront = [] {
@@ -76,10 +34,7 @@ Lit count_lit(const Framebuffer& f, uint32_t below = kNoPrimitive) {
 
 uint64_t shadow_rays(const Scene& scene, const Settings& settings) {
   Framebuffer frame;
-  const Result<FrameStats> stats = Renderer().render(scene, kFront, settings, frame);
-  for (const auto& [name, value] : stats.value().counts)
-    if (name == "rays_shadow") return value;
-  return 0;
+  return count(Renderer().render(scene, kFront, settings, frame).value(), "rays_shadow");
 }
 
 const Shading kSmooth[] = {Shading::kGouraud, Shading::kPhong};
@@ -273,68 +228,6 @@ TEST(ShadowTerminator, ScaleChangesNothing) {
       const Framebuffer f = picture(scale, away * scale * glm::dvec3(1, -0.5, 0.25));
       EXPECT_NEAR(static_cast<double>(count_lit(f).lit), wanted, 4) << scale << " " << away;
     }
-}
-
-// A mirror shows the treated sphere, and both engines and the reference say the same of it.
-TEST(ShadowTerminator, MirrorsAndTheReferenceAgree) {
-  std::vector<SoupTriangle> soup = sphere(1, 1, {-0.9, 0, 0});
-  const uint32_t count = static_cast<uint32_t>(soup.size());
-  for (const auto& [a, b, c] : {std::array{glm::dvec3(0.6, -2, -2), glm::dvec3(1.6, -2, 2), glm::dvec3(1.6, 2, 2)},
-                                {glm::dvec3(0.6, -2, -2), glm::dvec3(1.6, 2, 2), glm::dvec3(0.6, 2, -2)}})
-    soup.push_back(soup_triangle(a, b, c, 1));
-  Material mirror = matte();
-  for (int k = 0; k < 3; ++k) mirror.mirror[k] = 0.9f, mirror.diffuse[k] = 0;
-  const Scene scene = scene_of(soup, {directional_light({0, 0.8, 0.6})}, {matte(), mirror});
-  const Camera camera = camera_at({0, 0, 4}, {0, 0, 0});
-  for (const Visibility engine : kEngines) {
-    Settings off = small(ShadowTerminator::kOff), on = small(ShadowTerminator::kLifted);
-    off.visibility = on.visibility = engine, off.width = on.width = off.height = on.height = 2 * kSide;
-    const Framebuffer before = render(scene, camera, off), after = render(scene, camera, on);
-    Framebuffer truth;
-    ASSERT_TRUE(render_reference(scene, camera, on, {}, truth));
-    size_t changed = 0, wrong = 0, same = 0;
-    for (size_t i = 0; i < after.primitive.size(); ++i) {
-      changed += after.primitive[i] >= count && after.primitive[i] != kNoPrimitive && before.radiance[3 * i] != after.radiance[3 * i];
-      if (after.primitive[i] != truth.primitive[i]) continue;
-      ++same, wrong += std::fabs(after.radiance[3 * i] - truth.radiance[3 * i]) > 1e-4f;
-    }
-    EXPECT_GT(changed, 30u);
-    EXPECT_GT(same, after.primitive.size() * 99 / 100);
-    EXPECT_LE(wrong, 4u) << "edges of shadows";
-  }
-}
-
-// Triangles that pierce and shadow each other at all distances, normals bent at random: the renderer and the reference agree on which
-// ways are free.
-TEST(ShadowTerminator, RandomTrianglesAgreeWithTheReference) {
-  size_t wrong = 0, changed = 0, pixels = 0;
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    TestRandom random(seed);
-    SceneData data = make_lit_scene(random, 150);
-    for (Material& m : data.materials) m.transparency = 0, m.opacity = 1;
-    hash_scene(data);
-    const Scene scene(std::make_shared<SceneData>(std::move(data)));
-    const Camera camera = camera_at({0, 0, 5}, {0, 0, 0});
-    Settings on = small(ShadowTerminator::kLifted);
-    on.visibility = Visibility::kRay;
-    const Framebuffer after = render(scene, camera, on), before = render(scene, camera, [&] {
-      Settings off = on;
-      off.shadow_terminator = ShadowTerminator::kOff;
-      return off;
-    }());
-    Framebuffer truth;
-    ASSERT_TRUE(render_reference(scene, camera, on, {}, truth));
-    for (size_t i = 0; i < after.primitive.size(); ++i) {
-      if (after.primitive[i] == kNoPrimitive || after.primitive[i] != truth.primitive[i]) continue;
-      float most = 0;
-      for (size_t c = 3 * i; c < 3 * i + 3; ++c) most = std::max(most, std::fabs(after.radiance[c] - truth.radiance[c]) / (1 + truth.radiance[c]));
-      ++pixels, wrong += most > 1e-3f, changed += before.radiance[3 * i] != after.radiance[3 * i];
-    }
-  }
-  std::printf("%zu pixels, %zu changed, %zu otherwise than the reference\n", pixels, changed, wrong);
-  EXPECT_GT(pixels, 20000u);
-  EXPECT_GT(changed, pixels / 10);
-  EXPECT_LT(wrong, pixels / 2000);
 }
 
 TEST(ShadowTerminator, ThePlanNeedsLightOnSmoothTriangles) {

@@ -99,6 +99,18 @@ struct FrameCounts {
   LaneCounts walker_lanes, packet_lanes, plane_lanes, surface_lanes;
   uint64_t bvh_refits = 0, bvh_rebuilds = 0;  // trees that followed moving parts: of the second kind, those built anew
 
+  void add(const FrameCounts& c) {
+    triangles_in += c.triangles_in, triangles_invalid += c.triangles_invalid, triangles_clipped += c.triangles_clipped;
+    triangles_drawn += c.triangles_drawn, triangles_outside += c.triangles_outside, triangles_back_face += c.triangles_back_face;
+    triangles_hidden += c.triangles_hidden, triangles_empty += c.triangles_empty;
+    tile_triangles += c.tile_triangles, tile_triangles_hidden += c.tile_triangles_hidden, samples_passed += c.samples_passed;
+    pixels_covered += c.pixels_covered, surfaces_shaded += c.surfaces_shaded, quads_shaded += c.quads_shaded;
+    fragments_translucent += c.fragments_translucent;
+    rays_primary += c.rays_primary, rays_shadow += c.rays_shadow, rays_bounce += c.rays_bounce, rays_translucent += c.rays_translucent;
+    vertices_lit += c.vertices_lit, bvh_refits += c.bvh_refits, bvh_rebuilds += c.bvh_rebuilds;
+    walker_lanes.add(c.walker_lanes), packet_lanes.add(c.packet_lanes);
+    plane_lanes.add(c.plane_lanes), surface_lanes.add(c.surface_lanes);
+  }
   void add(const TileHits& tile) {
     tile_triangles += tile.triangles, tile_triangles_hidden += tile.triangles_hidden, samples_passed += tile.passed;
     walker_lanes.add(tile.walker_lanes), packet_lanes.add(tile.packet_lanes);

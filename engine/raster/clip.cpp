@@ -166,16 +166,7 @@ void clip_triangles(const Frame& frame, const ScreenVertices& vertices, TileBins
                                      static_cast<uint32_t>(std::min(n, (i + 1) * chunk_size)),
                                      fates == nullptr ? nullptr : fates->fate.data(), chunk, chunk_counts[i]);
   });
-  for (const FrameCounts& c : chunk_counts) {
-    counts.triangles_in += c.triangles_in;
-    counts.triangles_invalid += c.triangles_invalid;
-    counts.triangles_clipped += c.triangles_clipped;
-    counts.triangles_outside += c.triangles_outside;
-    counts.triangles_back_face += c.triangles_back_face;
-    counts.triangles_hidden += c.triangles_hidden;
-    counts.triangles_empty += c.triangles_empty;
-    counts.triangles_drawn += c.triangles_drawn;
-  }
+  for (const FrameCounts& c : chunk_counts) counts.add(c);
 }
 
 }  // namespace spanray

@@ -21,19 +21,7 @@ void add_worker_stats(const std::vector<std::unique_ptr<TileWorker>>& workers, i
                                        &stats.ms.bounce_rays, &stats.ms.composite, &stats.ms.encode};
   for (const auto& w : workers) {
     for (size_t i = 0; i < kTileStageCount; ++i) *ms[i] += w->clock.seconds(i) * 1e3 / threads;
-    counts.tile_triangles += w->counts.tile_triangles;
-    counts.tile_triangles_hidden += w->counts.tile_triangles_hidden;
-    counts.samples_passed += w->counts.samples_passed;
-    counts.pixels_covered += w->counts.pixels_covered;
-    counts.surfaces_shaded += w->counts.surfaces_shaded;
-    counts.quads_shaded += w->counts.quads_shaded;
-    counts.fragments_translucent += w->counts.fragments_translucent;
-    counts.rays_primary += w->counts.rays_primary;
-    counts.rays_shadow += w->counts.rays_shadow;
-    counts.rays_bounce += w->counts.rays_bounce;
-    counts.rays_translucent += w->counts.rays_translucent;
-    counts.walker_lanes.add(w->counts.walker_lanes), counts.packet_lanes.add(w->counts.packet_lanes);
-    counts.plane_lanes.add(w->counts.plane_lanes), counts.surface_lanes.add(w->counts.surface_lanes);
+    counts.add(w->counts);
   }
 }
 

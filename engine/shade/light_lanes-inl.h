@@ -124,12 +124,15 @@ HWY_INLINE Mask in_front(const SurfaceBatch& s, int i, const Incidence& incidenc
   return formula::dot(load3(s.geometric_normal, i), incidence.direction) > F32::zero();
 }
 
-// Those that it may reach by lifted rays: with a place for them, in front of it by the interpolated normal.
-HWY_INLINE Mask in_front_lifted(const SurfaceBatch& s, int i, const Incidence& incidence) {
+// Those with a place for lifted rays.
+HWY_INLINE Mask has_lift(const SurfaceBatch& s, int i) {
   const V3 lift = load3(s.lift, i);
   const F32 zero = F32::zero();
-  const Mask stays = (lift.x == zero) & (lift.y == zero) & (lift.z == zero);
-  return and_not(stays, formula::dot(load3(s.smooth_normal, i), incidence.direction) > zero);
+  return !((lift.x == zero) & (lift.y == zero) & (lift.z == zero));
+}
+// Those of them that it may reach by these: in front of it by the interpolated normal.
+HWY_INLINE Mask in_front_lifted(const SurfaceBatch& s, int i, const Incidence& incidence) {
+  return has_lift(s, i) & (formula::dot(load3(s.smooth_normal, i), incidence.direction) > F32::zero());
 }
 
 // Those that shading lights. With lifted rays, bits of `lit` say all; without shadow rays, either of the two is enough.

@@ -176,11 +176,13 @@ void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& r
   int n = 0;
   resize_rays(s.count, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
+    const Mask liftable = has_lift(s, i) & active_lanes(s, i, nullptr);
+    if (!any(liftable)) continue;
     const V3 position = load3(s.position, i);
     Mask active = first_lanes(0);
     for (int light = 0; light < static_cast<int>(frame.scene->lights.size()); ++light)
       active = active | want_lift(s, i, position, light_of(frame, light));
-    active = active & active_lanes(s, i, nullptr);
+    active = active & liftable;
     if (!any(active)) continue;
     const V3 start = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
     const V3 way = position + load3(s.lift, i) - start;

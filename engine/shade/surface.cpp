@@ -20,9 +20,10 @@ void SurfaceBatch::resize(int n, uint32_t written) {
                             {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint}, {ambient, kSurfaceAmbient},
                             {emission, kSurfaceEmission}, {mirror, kSurfaceMirror},
                             {lift, kSurfaceLift}, {smooth_normal, kSurfaceLift}};
-  float** const scalars[] = {&position_error, &shininess, &opacity};
+  struct Scalar { float** field; uint32_t needs; };
+  const Scalar scalars[] = {{&position_error, 0}, {&t, kSurfaceDepth}, {&shininess, 0}, {&opacity, 0}};
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
-  constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){}) + 1;
+  constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){});
 
   count = n, fields = written;
   plane_lanes = surface_lanes = {};
@@ -33,10 +34,10 @@ void SurfaceBatch::resize(int n, uint32_t written) {
   const auto take = [&] { return std::exchange(next, next + stride); };
   float* const zeros = take();
   std::fill_n(zeros, stride, 0.0f);
+  const auto take_if = [&](uint32_t needs) { return (needs & ~fields) == 0 ? take() : zeros; };
   for (const Vector& v : vectors)
-    for (int k = 0; k < 3; ++k) v.field[k] = (v.needs & ~fields) == 0 ? take() : zeros;
-  for (float** s : scalars) *s = take();
-  t = (fields & kSurfaceDepth) != 0 ? take() : zeros;
+    for (int k = 0; k < 3; ++k) v.field[k] = take_if(v.needs);
+  for (const Scalar& s : scalars) *s.field = take_if(s.needs);
   // Words live in the block of floats; kernels move both with the same untyped vector loads and stores.
   for (uint32_t** w : words) *w = reinterpret_cast<uint32_t*>(take());
 }
