@@ -1,5 +1,5 @@
-// Batches of rays against the tree: coherent neighbours as packets (ray/packet-inl.h), others as streams (any hit, ray/stream-inl.h) or
-// one by one (ray/traverse-inl.h).
+// Batches of rays against the tree: coherent neighbours as packets (ray/packet-inl.h), others as streams (ray/stream-inl.h,
+// ray/closest_stream-inl.h), and one by one where few are left or all hits are asked for (ray/traverse-inl.h).
 // Input:    any rays; those that prepare_ray() refuses miss.
 // Contract: what is found is what hit_triangle() over all triangles finds, with ties in t to the lowest primitive, whatever the tree,
 //           the order of the batch and the instruction set.
@@ -19,7 +19,7 @@
 #include "hwy/foreach_target.h"
 #include "ray/packet-inl.h"
 #include "ray/entrance-inl.h"
-#include "ray/stream-inl.h"
+#include "ray/closest_stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -46,13 +46,18 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
   if (data.nodes.empty()) return;
   const Batch batch{frame, rays, frame.settings.culling == Culling::kBack};
   ClosestPacket packet(data, batch);
+  ClosestStreams streams(data, batch, out);
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);
     if (packet.p.valid == 0) continue;
-    if (coherent(packet.p)) go_together(packet);
-    else packet.alone(0, nullptr, packet.p.valid);
+    if (!coherent(packet.p)) {
+      streams.add(packet);
+      continue;
+    }
+    go_together(packet);
     for (int i = 0; i < kLanes && first + i < rays.count; ++i) out[first + i] = packet.best[i];
   }
+  streams.finish();
 }
 
 void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {

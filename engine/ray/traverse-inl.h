@@ -30,16 +30,24 @@ struct LaneRay {
   int near_row[3], far_row[3];    // rows of BvhNode::bounds
 };
 
-// Which of kLanes8 children from `first` on the ray meets in [0, limit], and where it enters them: the arithmetic of slab().
+// Which of kLanes8 boxes a ray meets in [0, limit], and where it enters them: the arithmetic of slab(), on the sides that it enters and leaves by.
 struct ChildLanes { Mask8 meets; F8 near; };
-HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
+HWY_INLINE ChildLanes box_between(const F8 (&near_side)[3], const F8 (&far_side)[3], const TraceRay& ray, float limit) {
   F8 near = f8(0.0f), far = f8(limit);
   for (int k = 0; k < 3; ++k) {
-    const F8 o = f8(ray.exact.origin[k]);
-    near = cull_max((F8::load(node.bounds[ray.near_row[k]] + first) - o) * f8(ray.exact.inv_near[k]), near);
-    far = cull_min((F8::load(node.bounds[ray.far_row[k]] + first) - o) * f8(ray.exact.inv_far[k]), far);
+    const F8 o = f8(ray.origin[k]);
+    near = cull_max((near_side[k] - o) * f8(ray.inv_near[k]), near);
+    far = cull_min((far_side[k] - o) * f8(ray.inv_far[k]), far);
   }
   return {near <= far, near};
+}
+
+// Of the children of a node, those from `first` on.
+HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
+  F8 near_side[3], far_side[3];
+  for (int k = 0; k < 3; ++k)
+    near_side[k] = F8::load(node.bounds[ray.near_row[k]] + first), far_side[k] = F8::load(node.bounds[ray.far_row[k]] + first);
+  return box_between(near_side, far_side, ray.exact, limit);
 }
 
 // Where a ray surely passes inside a triangle whose vertices are all in front of it, bounds on t in float order most hits: t is the mean of
@@ -62,7 +70,7 @@ HWY_INLINE BoundsOnT<F> bounds_on_t(F edge_u, F edge_v, F edge_w, const F (&t)[3
 // 10 roundings too small). Closest hit: with low <= t <= high.
 struct Candidates { uint32_t maybe, sure; };
 struct CandidateDistances { alignas(32) float low[kBvhWidth], high[kBvhWidth]; };
-template <class Visitor>
+template <class Visitor, bool kEarlyOut = true>
 HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray, float limit, CandidateDistances& distances) {
   const int kx = ray.exact.kx, ky = ray.exact.ky, kz = ray.exact.kz;
   const F8 ox = f8(ray.exact.origin[kx]), oy = f8(ray.exact.origin[ky]), oz = f8(ray.exact.origin[kz]);
@@ -72,21 +80,21 @@ HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray,
     F8 x[3], y[3], t[3];
     for (int v = 0; v < 3; ++v) {
       const F8 z = F8::load(block.vertex[v][kz] + s) - oz;
-      x[v] = F8::load(block.vertex[v][kx] + s) - ox - shear_x * z;
-      y[v] = F8::load(block.vertex[v][ky] + s) - oy - shear_y * z;
+      x[v] = cull_neg_mul_add(shear_x, z, F8::load(block.vertex[v][kx] + s) - ox);
+      y[v] = cull_neg_mul_add(shear_y, z, F8::load(block.vertex[v][ky] + s) - oy);
       t[v] = z * inv_z;  // the bits of slab(): the least of the three is where the box begins along kz
     }
-    const F8 edge_u = x[2] * y[1] - y[2] * x[1];
-    const F8 edge_v = x[0] * y[2] - y[0] * x[2];
-    const F8 edge_w = x[1] * y[0] - y[1] * x[0];
+    const F8 edge_u = cull_neg_mul_add(x[1], y[2], x[2] * y[1]);
+    const F8 edge_v = cull_neg_mul_add(x[2], y[0], x[0] * y[2]);
+    const F8 edge_w = cull_neg_mul_add(x[0], y[1], x[1] * y[0]);
     const F8 sum = abs_(x[0]) + abs_(y[0]) + (abs_(x[1]) + abs_(y[1])) + (abs_(x[2]) + abs_(y[2]));
-    const F8 error = f8(ray.edge_slope) * sum + f8(ray.edge_offset);
+    const F8 error = cull_mul_add(f8(ray.edge_slope), sum, f8(ray.edge_offset));
     const F8 least = cull_min(cull_min(edge_u, edge_v), edge_w), greatest = cull_max(cull_max(edge_u, edge_v), edge_w);
     const F8 first = cull_min(cull_min(t[0], t[1]), t[2]), last = cull_max(cull_max(t[0], t[1]), t[2]);
     const Mask8 miss = ((least < -error) & (greatest > error)) | (first > f8(limit)) | (last < f8(0.0f));
     const uint32_t maybe = ~to_bits(miss) & ((1u << kLanes8) - 1);
     found.maybe |= maybe << s;
-    if (!(Visitor::kAny || Visitor::kClosest) || maybe == 0) continue;
+    if (!(Visitor::kAny || Visitor::kClosest) || (kEarlyOut && maybe == 0)) continue;
     const Mask8 inside = ((least > error) | (greatest < -error)) & (first > f8(0.0f));
     if constexpr (Visitor::kAny) {
       found.sure |= (to_bits(inside & (last * f8(1 + 0x1p-20f) < f8(limit))) & maybe) << s;
@@ -151,20 +159,17 @@ HWY_INLINE TriangleView triangle_at(const Bvh::Data& data, uint32_t place) {
   return triangle_of(data.blocks[place / kBvhWidth], static_cast<int>(place % kBvhWidth));
 }
 
-// Tests the triangles of a leaf; true if the visitor wants to end.
+// Tests triangles that candidates() found; first: the place of the block's first among those of all blocks. True if the visitor wants to end.
 template <class Visitor>
-HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
-  const TriangleBlock& block = data.blocks[leaf_block(child)];
-  const uint32_t used = leaf_lanes(child);
-  CandidateDistances t_of;
-  const Candidates found = candidates<Visitor>(block, ray, visitor.limit, t_of);
+HWY_INLINE bool visit_candidates(const TriangleBlock& block, uint32_t first, const Candidates& found, const CandidateDistances& t_of, const LaneRay& ray,
+                                 Visitor& visitor) {
   if constexpr (Visitor::kAny)
-    for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
+    for (uint32_t bits = found.sure; bits != 0; bits &= bits - 1)
       if (block.primitive[std::countr_zero(bits)] != ray.from && visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
-  for (uint32_t bits = found.maybe & used; bits != 0; bits &= bits - 1) {
+  for (uint32_t bits = found.maybe; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);
     if (block.primitive[lane] == ray.from) continue;
-    [[maybe_unused]] const uint32_t place = leaf_block(child) * kBvhWidth + static_cast<uint32_t>(lane);
+    [[maybe_unused]] const uint32_t place = first + static_cast<uint32_t>(lane);
     if constexpr (Visitor::kClosest) {
       if ((found.sure >> lane & 1u) != 0) {
         if (t_of.low[lane] > visitor.limit) continue;
@@ -181,6 +186,17 @@ HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay&
     else if (visitor.takes(triangle) && visitor.hit(t, block.primitive[lane])) return true;
   }
   return false;
+}
+
+// Tests the triangles of a leaf; true if the visitor wants to end.
+template <class Visitor>
+HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay& ray, Visitor& visitor) {
+  const TriangleBlock& block = data.blocks[leaf_block(child)];
+  CandidateDistances t_of;
+  Candidates found = candidates<Visitor>(block, ray, visitor.limit, t_of);
+  const uint32_t used = leaf_lanes(child);
+  found.maybe &= used, found.sure &= used;
+  return visit_candidates(block, leaf_block(child) * kBvhWidth, found, t_of, ray, visitor);
 }
 
 // Visits what the ray may hit in the subtree or leaf `start`, entered at `near`, at no more than visitor.limit: near first, but for kAny in

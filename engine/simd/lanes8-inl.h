@@ -40,6 +40,10 @@ HWY_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return {hn8::Or(a.m, b.m)}; }
 // The machine's own: b if a is NaN, on every target; either zero if both are zeros. For culling only (DESIGN 3, rule 6).
 HWY_INLINE F8 cull_min(F8 a, F8 b) { return {hn8::Min(a.v, b.v)}; }
 HWY_INLINE F8 cull_max(F8 a, F8 b) { return {hn8::Max(a.v, b.v)}; }
+HWY_INLINE F8 select(Mask8 m, F8 a, F8 b) { return {hn8::IfThenElse(m.m, a.v, b.v)}; }
+// One or two roundings, as the machine has it; for culling only.
+HWY_INLINE F8 cull_mul_add(F8 a, F8 b, F8 c) { return {hn8::MulAdd(a.v, b.v, c.v)}; }
+HWY_INLINE F8 cull_neg_mul_add(F8 a, F8 b, F8 c) { return {hn8::NegMulAdd(a.v, b.v, c.v)}; }
 // Bit i tells whether words[i] is x, for eight words.
 HWY_INLINE uint32_t words_equal(const uint32_t* words, uint32_t x) {
   const hn8::RebindToUnsigned<D8> du;

@@ -1,0 +1,61 @@
+// Incoherent rays that go down the tree as sets answer as if each went alone.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "support/ray_answers.h"
+
+namespace spanray {
+namespace {
+
+// Rays from one small place in all directions, as light scatters: large sets at the top of the tree, single rays at its leaves. Streams that are
+// full, that lack one ray or get one too many; invalid rays among them; rays that end before what they would hit;
+// triangles that coincide, so that of several hits at one t the lowest must be kept whichever is met first.
+TEST(RayStream, ScatteredRaysEqualBruteForceInAnyOrder) {
+  TestRandom random(41);
+  std::vector<SoupTriangle> soup;
+  add_mesh(soup, make_sphere(2), 0.6, glm::dvec3(0.2, 0, 0));
+  add_random_triangles(soup, random, 600, 0.15);
+  add_random_triangles(soup, random, 12, 2);
+  const size_t half = soup.size() / 2;
+  for (size_t i = 0; i < half; i += 3) soup.push_back(soup[i]);
+  auto t = frame_of(soup);
+  const Bvh bvh = build_all(*t);
+  int ends = 0;
+  for (const int n : {1, 2, 17, 63, 64, 65, 500, 1027}) {
+    RayBatch rays = make_rays(n), shuffled = make_rays(n);
+    const glm::dvec3 center = random_point(random, 0.8);
+    for (int i = 0; i < n; ++i) {
+      glm::dvec3 d = random_point(random, 1);
+      if (i % 29 == 0) d[i % 3] = i % 2 == 0 ? 0.0 : -0.0;
+      set_ray(rays, i, center + random_point(random, 0.05), i % 97 == 96 ? glm::dvec3(0) : d, i % 4 == 0 ? static_cast<float>(random.uniform(0, 1)) : kInfinity);
+    }
+    const Answers free = brute_force(*t, rays);
+    for (int i = 3; i < n; i += 8) {  // as far as a corner of what is hit: the hit is nearer or farther
+      const uint32_t hit = free.closest[static_cast<size_t>(i)];
+      if (hit == kNoPrimitive) continue;
+      rays.t_max[static_cast<size_t>(i)] = static_cast<float>(length3(scene_vertex(t->scene, hit, 0) - ray_origin(rays, i)) / length3(ray_direction(rays, i)));
+      ++ends;
+    }
+    int step = n / 2 + 1;
+    while (std::gcd(step, n) != 1) ++step;
+    const auto place = [&](int i) { return static_cast<int>(static_cast<long>(i) * step % n); };
+    for (int i = 0; i < n; ++i) {
+      set_ray(shuffled, place(i), ray_origin(rays, i), ray_direction(rays, i), rays.t_max[static_cast<size_t>(i)]);
+      shuffled.pixel[static_cast<size_t>(place(i))] = static_cast<uint32_t>(i);
+    }
+    const Answers want = brute_force(*t, rays);
+    for (const Isa isa : supported_isas()) {
+      expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
+      const Answers other = trace(*t, bvh, shuffled, isa);
+      for (int i = 0; i < n; ++i) {
+        const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(place(i));
+        ASSERT_TRUE(other.closest[b] == want.closest[a] && other.any[b] == want.any[a]) << isa_name(isa) << ", " << n << " rays, ray " << i;
+      }
+    }
+  }
+  EXPECT_GT(ends, 100);
+}
+
+}  // namespace
+}  // namespace spanray
