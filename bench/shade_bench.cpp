@@ -27,14 +27,13 @@ void light(benchmark::State& state, Shading shading) {
     resolve_surfaces(frame, f.hits[i], *tiles.back().second);
     count += f.hits[i].count;
   }
-  LitVertexCache cache(f.scene.data().vertices.size(), f.scene.light_count());
   AlignedBuffer<float> radiance[3];
   for (auto& channel : radiance) channel.resize(kTilePixels + 16);
   float* const out[3] = {radiance[0].data(), radiance[1].data(), radiance[2].data()};
   for (auto _ : state) {
     for (const auto& [hits, surfaces] : tiles) {
       shade_ambient(frame, *surfaces, out);
-      for (int k = 0; k < static_cast<int>(f.scene.light_count()); ++k) shade_light(frame, *surfaces, *hits, k, nullptr, &cache, out);
+      for (int k = 0; k < static_cast<int>(f.scene.light_count()); ++k) shade_light(frame, *surfaces, *hits, k, nullptr, out);
     }
   }
   state.SetItemsProcessed(state.iterations() * count * static_cast<int64_t>(f.scene.light_count()));  // surface-light pairs

@@ -12,7 +12,8 @@ include(${CMAKE_CURRENT_LIST_DIR}/../engine/catalog/catalog.cmake)
 
 # The sources that read the catalog of reflectances (tests/catalog_build_test.cpp holds this list to be all of them).
 function(spanray_formula_sources out)
-  set(${out} catalog/catalog.cpp shade/light_kernel.cpp shade/gouraud_kernel.cpp shade/light_rays_kernel.cpp PARENT_SCOPE)
+  set(${out} catalog/catalog.cpp shade/light_kernel.cpp shade/triangle_light_kernel.cpp shade/light_rays_kernel.cpp
+      shade/resolve_kernel.cpp PARENT_SCOPE)
 endfunction()
 
 function(spanray_add_formula target)

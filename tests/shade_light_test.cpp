@@ -76,7 +76,7 @@ TEST(ShadeLight, EqualBitsForAnySplitOfTheBatch) {
         count = std::min(257 - first, random.between(1, 20));
         copy_surfaces(t->surfaces, first, count, part);
         shade_ambient(t->frame(), part, got.at(first).p);
-        for (int l = 0; l < 6; ++l) shade_light(t->frame(), part, t->hits, l, nullptr, nullptr, got.at(first).p);
+        for (int l = 0; l < 6; ++l) shade_light(t->frame(), part, t->hits, l, nullptr, got.at(first).p);
       }
       EXPECT_TRUE(got == want) << isa_name(isa);
     }
@@ -94,7 +94,7 @@ TEST(ShadeLight, S1_MirrorDirectionNeverExceedsOneOverPi) {
   for (int i = 0; i < 500; ++i) {
     t->scene().lights = {directional_light(get3(t->surfaces.normal, i))};
     TestRadiance r(500);
-    shade_light(t->frame(), t->surfaces, t->hits, 0, nullptr, nullptr, r.at().p);
+    shade_light(t->frame(), t->surfaces, t->hits, 0, nullptr, r.at().p);
     EXPECT_LE(r.channel[0][static_cast<size_t>(i)], 0.318309886f);
     EXPECT_GE(r.channel[0][static_cast<size_t>(i)], 0.318309886f * 0.99f);
   }
@@ -114,7 +114,7 @@ TEST(ShadeLight, LightBehindTheGeometricNormalGivesNothing) {
   auto t = make_test_surfaces(62, kCount, Shading::kPhong, false);
   for (int l = 0; l < 6; ++l) {
     TestRadiance r(kCount);
-    shade_light(t->frame(), t->surfaces, t->hits, l, nullptr, nullptr, r.at().p);
+    shade_light(t->frame(), t->surfaces, t->hits, l, nullptr, r.at().p);
     RayBatch rays;
     AlignedBuffer<uint32_t> of;
     make_shadow_rays(t->frame(), t->surfaces, l, rays, of);

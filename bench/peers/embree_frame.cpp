@@ -101,7 +101,7 @@ void EmbreeFrame::shade_level(const Asked& asked, const FrameJob& job, Worker& w
   shade_ambient(frame_, level.surfaces, radiance);
   for (int light = 0; hits > 0 && light < static_cast<int>(frame_.scene->lights.size()); ++light) {
     const uint32_t* const lit = frame_.plan.shadow_rays ? find_lit(asked, level.surfaces, light, w) : nullptr;
-    shade_light(frame_, level.surfaces, level.hits, light, lit, nullptr, radiance);
+    shade_light(frame_, level.surfaces, level.hits, light, lit, radiance);
   }
   std::fill_n(level.opaque_t.data(), level.slots, std::numeric_limits<float>::infinity());
   for (int c = 0; c < 3; ++c) std::fill_n(level.radiance[c].data(), level.slots, job.frame.scene->background[c]);
@@ -178,7 +178,7 @@ void EmbreeFrame::render_chunk(const Asked& asked, const FrameJob& job, const Ch
 void EmbreeFrame::render_all(const Asked& asked, Framebuffer& out, const FrameRequest& request) {
   resize_output(frame_.settings, request, out);
   for (const auto& w : workers_) w->reset();
-  const FrameJob job{frame_, nullptr, nullptr, nullptr, nullptr, out, request};
+  const FrameJob job{frame_, nullptr, nullptr, nullptr, out, request};
   const TileGrid& grid = frame_.grid;
   parallel_.for_each(static_cast<size_t>(grid.count()), [&](size_t index, int worker) {
     const int tile = static_cast<int>(index);

@@ -97,11 +97,9 @@ Finding s6_gouraud(const Effort& effort) {
       weight[i % 3] = 1;
       if (t->surfaces.valid[i] != 0) put_surface(*t, i, static_cast<uint32_t>(i / 3), weight, t->viewer(i));
     }
-    LitVertexCache cache(t->scene().vertices.size(), t->scene().lights.size());
     for (const Isa isa : supported_isas()) {
-      cache.reset();
       t->frame().settings.shading = Shading::kGouraud;
-      const TestRadiance gouraud = shade_all(*t, isa, nullptr, &cache);
+      const TestRadiance gouraud = shade_all(*t, isa);
       t->frame().settings.shading = Shading::kPhong;
       const TestRadiance phong = shade_all(*t, isa);
       double brightest = 0;

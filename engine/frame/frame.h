@@ -19,7 +19,7 @@ struct PlanFlags {
   bool textures = false, bump = false, samples = false, lit_vertices = false, emission = false, ambient = false, specular = false;
   bool raw_normals = false;   // interpolated normals stay as they are (Settings::normals), and some triangle's corners differ
   bool coarse_quads = false;  // render/coarse_quads.h
-  bool depths = true, weights = true;  // somebody reads t and weights of surfaces
+  bool depths = true, weights = true, normals = true, views = true;  // somebody reads these fields of surfaces (t, weight, normal, view)
   bool lifted_rays = false;   // shadow rays above coarse triangles (Settings::shadow_terminator), and some triangle's corners differ
   uint32_t maps = 0;  // MaterialMaps that some material has
 };
@@ -93,7 +93,7 @@ struct FrameCounts {
   uint64_t tile_triangles = 0, tile_triangles_hidden = 0, samples_passed = 0;
   uint64_t pixels_covered = 0, surfaces_shaded = 0, quads_shaded = 0, fragments_translucent = 0;
   uint64_t rays_primary = 0, rays_shadow = 0, rays_bounce = 0, rays_translucent = 0;
-  uint64_t vertices_lit = 0;
+  uint64_t vertices_lit = 0;  // Gouraud: corners of what primary rays see, three a triangle in a cell
   // Walkers of columns and rows: the samples that passed. Packets of tiny triangles: the samples inside. Planes of primary hits: of triangles
   // in a cell. Surfaces: those that hit.
   LaneCounts walker_lanes, packet_lanes, plane_lanes, surface_lanes;

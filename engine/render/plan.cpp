@@ -107,7 +107,7 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   f.masks = lines.add("accept masks", true, "", w.masked, materials_text(w.masked, "masked: alpha mask or screen-door"),
                       "no material is masked");
   f.lit_vertices = lines.add("lit vertices", s.shading == Shading::kGouraud, "shading is not Gouraud", lit,
-                             "Gouraud shading: vertices of visible triangles are lit once", "nothing is lit");
+                             "Gouraud shading: corners of visible triangles are lit, whatever the number of pixels", "nothing is lit");
   f.maps = w.maps;
   f.raw_normals = lines.add("normals as interpolated", s.normals == Normals::kInterpolated && s.shading == Shading::kPhong,
                             s.shading == Shading::kPhong ? "normals are made unit vectors"

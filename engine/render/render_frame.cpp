@@ -30,14 +30,17 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
 }
 
 // The plan does not know what else the caller asks for.
-void leave_out_unread(const FrameRequest& request, PlanFlags& plan) {
-  plan.depths = plan.translucents || request.depth || request.ladder != nullptr;
-  plan.weights = plan.lit_vertices || plan.lifted_rays || request.uv || request.ladder != nullptr;
+void leave_out_unread(const FrameRequest& request, Shading shading, PlanFlags& plan) {
+  const bool all = request.ladder != nullptr;
+  plan.depths = all || plan.translucents || request.depth;
+  plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
+  plan.views = all || plan.bounces || shading == Shading::kPhong;
+  plan.normals = plan.views || request.normal;
 }
 
 }  // namespace
 
-// What lives from frame to frame: threads, buffers, trees, lit vertices, the scene as it stands now. Trees are rebuilt when the scene or
+// What lives from frame to frame: threads, buffers, trees, the scene as it stands now. Trees are rebuilt when the scene or
 // the meaning of its materials changes.
 struct Renderer::Impl {
   std::unique_ptr<Parallel> parallel;
@@ -48,7 +51,6 @@ struct Renderer::Impl {
   RayTrees trees;
   std::unique_ptr<Clusters> clusters;  // of the scene at rest; none of a small one
   ClusterFates fates;
-  std::unique_ptr<LitVertexCache> lit_vertices;
   ScreenVertices vertices;
   TileBins bins;
   std::vector<std::unique_ptr<TileWorker>> workers;
@@ -59,7 +61,7 @@ struct Renderer::Impl {
     while (workers.size() < static_cast<size_t>(parallel->threads())) workers.push_back(std::make_unique<TileWorker>());
     if (scene.valid() && &scene.data() == &new_scene.data()) return;
     scene = Scene();  // nothing of it is left, should memory run out below
-    trees.clear(), clusters.reset(), lit_vertices.reset(), posed.reset();
+    trees.clear(), clusters.reset(), posed.reset();
     use = find_scene_use(new_scene.data());
     if (!new_scene.data().motions.empty()) posed = std::make_unique<PosedScene>(new_scene.data());
     scene = new_scene;
@@ -72,7 +74,6 @@ struct Renderer::Impl {
     size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + trees.memory_bytes();
     if (posed) bytes += posed->memory_bytes();
     if (clusters) bytes += clusters->memory_bytes() + fates.memory_bytes();
-    if (lit_vertices) bytes += lit_vertices->memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
     return bytes;
   }
@@ -93,7 +94,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   FrameStats stats;
   const double start = seconds_now();
   Plan plan = make_plan(scene.data(), use, settings);
-  leave_out_unread(request, plan.flags);
+  leave_out_unread(request, settings.shading, plan.flags);
   if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
   const RayTrees::Work followed = trees.update(standing(), plan, settings.tree, scene.data().moving_triangles, poses, *parallel);
 
@@ -117,12 +118,8 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   } else {
     counts.triangles_in = scene.data().triangles.size();
   }
-  if (!plan.flags.lit_vertices) lit_vertices.reset();
-  else if (!lit_vertices) lit_vertices = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
-  else lit_vertices->reset();
-
   for (const auto& w : workers) w->counts = {}, w->clock.reset();
-  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), lit_vertices.get(), out, request};
+  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), out, request};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
   });
@@ -132,7 +129,6 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   stats.ms.frame = (seconds_now() - start) * 1e3 - followed.first_build_ms;  // of a scene once; it stands in bvh_build
   counts.bvh_refits = followed.refits, counts.bvh_rebuilds = followed.rebuilds;
   add_worker_stats(workers, parallel->threads(), counts, stats);
-  if (lit_vertices) counts.vertices_lit = lit_vertices->lit_count();
   add_counts(counts, stats);
   stats.memory_bytes = memory_bytes();
   stats.isa = isa_name(frame.isa);

@@ -99,7 +99,8 @@ void scatter_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary
     for (int k = 0; k < fields; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
 }
 
-void count_lanes(const SurfaceBatch& surfaces, FrameCounts& counts) {
+void count_lanes(const Frame& frame, const SurfaceBatch& surfaces, FrameCounts& counts) {
+  if (frame.plan.lit_vertices) counts.vertices_lit += 3 * surfaces.plane_lanes.used;
   counts.plane_lanes.add(surfaces.plane_lanes), counts.surface_lanes.add(surfaces.surface_lanes);
 }
 
@@ -108,8 +109,8 @@ void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary
   w.clock.enter(TileStage::kShade);
   compact_hits(w, level, primary);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
-  count_lanes(level.surfaces, w.counts);
-  light_surfaces(job, w, level.surfaces, level.hits, primary);
+  count_lanes(job.frame, level.surfaces, w.counts);
+  light_surfaces(job, w, level.surfaces, level.hits);
   scatter_hits(job, w, level, primary);
 }
 
@@ -175,8 +176,8 @@ void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bo
   for (size_t i = 0; i < hits.place.size(); ++i) hits.place[i] = level.place[static_cast<size_t>(w.fragment_slot[i])];
   hits.rays = primary ? nullptr : &level.rays;
   resolve_surfaces(job.frame, hits, w.fragment_surfaces);
-  count_lanes(w.fragment_surfaces, w.counts);
-  light_surfaces(job, w, w.fragment_surfaces, hits, primary);
+  count_lanes(job.frame, w.fragment_surfaces, w.counts);
+  light_surfaces(job, w, w.fragment_surfaces, hits);
   const float* fragment_radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
   float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
   composite(w.fragment_surfaces, w.fragment_slot.data(), fragment_radiance, level.opaque_t.data(), level.slots, radiance,

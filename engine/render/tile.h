@@ -78,7 +78,6 @@ struct FrameJob {
   const TileBins* bins = nullptr;  // visibility by rasterization
   const Bvh* opaque = nullptr;     // shadow, bounce and primary rays
   const Bvh* translucent = nullptr;
-  LitVertexCache* lit_vertices = nullptr;
   Framebuffer& out;
   const FrameRequest& request;
 };

@@ -27,7 +27,7 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
 
 }  // namespace
 
-void light_surfaces(const FrameJob& job, TileWorker& w, SurfaceBatch& surfaces, const HitBatch& hits, bool primary) {
+void light_surfaces(const FrameJob& job, TileWorker& w, SurfaceBatch& surfaces, const HitBatch& hits) {
   const TileStage stage = w.clock.enter(TileStage::kShade);
   if (job.frame.plan.lifted_rays && job.frame.plan.shadow_rays) {
     const TileStage shade = w.clock.enter(TileStage::kShadowRays);
@@ -43,7 +43,7 @@ void light_surfaces(const FrameJob& job, TileWorker& w, SurfaceBatch& surfaces, 
   for (int light = 0; surfaces.count > 0 && light < static_cast<int>(job.frame.scene->lights.size()); ++light) {
     const uint32_t* lit = job.frame.plan.shadow_rays ? find_lit(job, w, surfaces, light) : nullptr;
     if (job.request.ladder != nullptr && lit != nullptr) mix_shadow_bits(job, surfaces, hits, lit, light);
-    shade_light(job.frame, surfaces, hits, light, lit, primary ? job.lit_vertices : nullptr, radiance);
+    shade_light(job.frame, surfaces, hits, light, lit, radiance);
   }
   w.clock.enter(stage);
 }

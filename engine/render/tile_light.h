@@ -5,6 +5,6 @@
 namespace spanray {
 
 // worker.radiance = ambient + emission + every light in index order, each with its shadow bits.
-void light_surfaces(const FrameJob& job, TileWorker& worker, SurfaceBatch& surfaces, const HitBatch& hits, bool primary);
+void light_surfaces(const FrameJob& job, TileWorker& worker, SurfaceBatch& surfaces, const HitBatch& hits);
 
 }  // namespace spanray

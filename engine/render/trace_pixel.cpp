@@ -44,8 +44,8 @@ class Tracer {
   int tile() const { return y_ / kTileSize * frame_.grid.columns + x_ / kTileSize; }
   void make_primary_ray(uint32_t pixel, int place, RayBatch& rays) const;
   void make_hits(HitBatch& hits, const RayBatch* rays, uint32_t primitive, const Slot& slot) const;
-  SurfaceTrace shade(const HitBatch& hits, SurfaceBatch& surfaces, bool primary) const {
-    return trace_surface(frame_, opaque_, hits, primary ? lit_vertices_.get() : nullptr, surfaces);
+  SurfaceTrace shade(const HitBatch& hits, SurfaceBatch& surfaces) const {
+    return trace_surface(frame_, opaque_, hits, surfaces);
   }
   void add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bool primary);
   bool bounce(const HitBatch& hits, const SurfaceBatch& surfaces, RayBatch& next, LevelTrace& level) const;
@@ -56,7 +56,6 @@ class Tracer {
   Frame frame_;
   Bvh opaque_, translucent_;
   TileBins bins_;
-  std::unique_ptr<LitVertexCache> lit_vertices_;
 };
 
 Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y)
@@ -70,8 +69,6 @@ Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& setting
   transform_vertices(frame_, vertices);
   clip_triangles(frame_, vertices, bins_, counts);
   bin_triangles(frame_, bins_);
-  if (frame_.plan.lit_vertices)
-    lit_vertices_ = std::make_unique<LitVertexCache>(scene.data().vertices.size(), scene.data().lights.size());
 }
 
 uint32_t Tracer::raster_hit(int place, FragmentList& fragments, float& depth) {
@@ -127,7 +124,7 @@ void Tracer::add_layers(LevelTrace& level, RayBatch& rays, const Slot& start, bo
     HitBatch hits;
     SurfaceBatch surfaces;
     make_hits(hits, primary ? nullptr : &rays, list.primitive[i], start);
-    level.layers.push_back(shade(hits, surfaces, primary));
+    level.layers.push_back(shade(hits, surfaces));
   }
   // Shown in the order of blending; blended by the renderer's own function.
   std::sort(level.layers.begin(), level.layers.end(), [](const SurfaceTrace& a, const SurfaceTrace& b) {
@@ -168,7 +165,7 @@ std::optional<Tracer::Slot> Tracer::find_quad(uint32_t& seen) {
   if (!frame_.plan.coarse_quads || x0 + 1 >= frame_.grid.width || y0 + 1 >= frame_.grid.height) return std::nullopt;
   Framebuffer out;
   const FrameRequest request;
-  const FrameJob job{frame_, frame_.plan.raster ? &bins_ : nullptr, &opaque_, &translucent_, nullptr, out, request};
+  const FrameJob job{frame_, frame_.plan.raster ? &bins_ : nullptr, &opaque_, &translucent_, out, request};
   const auto worker = std::make_unique<TileWorker>();
   Level level;
   parallel_.for_each(1, [&](size_t, int) {
@@ -198,7 +195,7 @@ std::vector<Tracer::Slot> Tracer::find_slots() {
   }
   Framebuffer out;
   const FrameRequest request;
-  const FrameJob job{frame_, by_ray ? nullptr : &bins_, &opaque_, &translucent_, nullptr, out, request};
+  const FrameJob job{frame_, by_ray ? nullptr : &bins_, &opaque_, &translucent_, out, request};
   TileWorker worker;
   Level level;
   parallel_.for_each(1, [&](size_t, int) {
@@ -243,7 +240,7 @@ SlotTrace Tracer::trace_slot(const Slot& slot) {
     SurfaceBatch surfaces;
     make_hits(hits, primary ? nullptr : rays[k].get(), primitive, slot);
     LevelTrace& level = trace.levels[k];
-    level.surface = shade(hits, surfaces, primary);
+    level.surface = shade(hits, surfaces);
     for (int c = 0; c < 3; ++c)
       level.radiance[c] = hits.count > 0 ? level.surface.radiance[c] : frame_.scene->background[c];
     if (frame_.plan.translucents) add_layers(level, *rays[k], slot, primary);

@@ -17,7 +17,7 @@ void copy3(float* const from[3], int i, float (&to)[3]) {
 }
 
 // The light alone, its shadow ray, its bit, and the sum so far with it.
-LightTrace trace_light(const Frame& frame, const Bvh& opaque, const HitBatch& hits, const SurfaceBatch& s, int index, LitVertexCache* cache,
+LightTrace trace_light(const Frame& frame, const Bvh& opaque, const HitBatch& hits, const SurfaceBatch& s, int index,
                        Radiance& sum) {
   LightTrace trace;
   trace.light = index;
@@ -53,16 +53,16 @@ LightTrace trace_light(const Frame& frame, const Bvh& opaque, const HitBatch& hi
   }
   trace.lit = lit[0] != 0;
   Radiance alone;
-  shade_light(frame, s, hits, index, nullptr, cache, alone.pointer);
+  shade_light(frame, s, hits, index, nullptr, alone.pointer);
   alone.get(trace.alone);
-  shade_light(frame, s, hits, index, frame.plan.shadow_rays ? lit.data() : nullptr, cache, sum.pointer);
+  shade_light(frame, s, hits, index, frame.plan.shadow_rays ? lit.data() : nullptr, sum.pointer);
   sum.get(trace.sum);
   return trace;
 }
 
 }  // namespace
 
-SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch& hits, LitVertexCache* cache, SurfaceBatch& s) {
+SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch& hits, SurfaceBatch& s) {
   SurfaceTrace trace;
   if (hits.count == 0) return trace;
   resolve_surfaces(frame, hits, s);
@@ -85,7 +85,7 @@ SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch
   shade_ambient(frame, s, sum.pointer);
   sum.get(trace.ambient_radiance);
   for (int i = 0; i < static_cast<int>(frame.scene->lights.size()); ++i)
-    trace.lights.push_back(trace_light(frame, opaque, hits, s, i, cache, sum));
+    trace.lights.push_back(trace_light(frame, opaque, hits, s, i, sum));
   sum.get(trace.radiance);
   return trace;
 }

@@ -23,7 +23,7 @@ struct Radiance {
   void get(float (&to)[3]) const { for (int c = 0; c < 3; ++c) to[c] = channel[c][0]; }
 };
 
-// hits: one, or none (the trace is then not valid). cache: interpolated light of vertices, if the plan has it. surface: of the hit.
-SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch& hits, LitVertexCache* cache, SurfaceBatch& surface);
+// hits: one, or none (the trace is then not valid). surface: of the hit.
+SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch& hits, SurfaceBatch& surface);
 
 }  // namespace spanray

@@ -1,8 +1,7 @@
-// shade/light.h: the kernel of the frame's instruction set, and the cache of lit vertices.
+// shade/light.h: the kernel of the frame's instruction set.
 #include "shade/light.h"
 
 #include "shade/light_kernel.h"
-#include "shade/lit_vertex_cache.h"
 
 namespace spanray {
 
@@ -20,18 +19,9 @@ void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* cons
 }
 
 void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, int light, const uint32_t* lit,
-                 LitVertexCache* cache, float* const radiance[3]) {
-  const int isa = isa_index(frame.isa);
-  if (frame.settings.shading != Shading::kGouraud) {
-    kShadeLight[isa](frame, surfaces, hits, light, lit, radiance);
-    return;
-  }
-  const float* corner_light = nullptr;
-  if (cache != nullptr && hits.rays == nullptr) {
-    cache->impl().light_vertices_of(frame, surfaces);
-    corner_light = cache->impl().values_of(light);
-  }
-  kShadeLightGouraud[isa](frame, surfaces, hits, light, lit, corner_light, radiance);
+                 float* const radiance[3]) {
+  const bool by_triangle = surfaces.lights > 0 || frame.settings.shading == Shading::kGouraud;
+  (by_triangle ? kShadeTriangleLight : kShadeLight)[isa_index(frame.isa)](frame, surfaces, hits, light, lit, radiance);
 }
 
 void make_bounce_rays(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,

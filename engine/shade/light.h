@@ -1,28 +1,8 @@
 // Light on surfaces: shadow rays, radiance of one light after the other in index order, mirror rays, compositing.
 #pragma once
-#include <vector>
-#include <atomic>
-#include <memory>
-
 #include "shade/surface.h"
 
 namespace spanray {
-
-// Gouraud: light at the vertices, once a frame, only for vertices of visible triangles, one color a light (so that shadow bits
-// apply per pixel). Viewer: the camera. Filled on demand by tasks of any thread; what it holds does not depend on who fills it.
-class LitVertexCache {
- public:
-  LitVertexCache(size_t vertices, size_t lights);
-  ~LitVertexCache();
-  struct Impl;
-  Impl& impl() { return *impl_; }
-  void reset();  // forgets all light: between frames, O(1)
-  size_t memory_bytes() const;
-  uint64_t lit_count() const;  // vertices lit since the last reset
-
- private:
-  std::unique_ptr<Impl> impl_;
-};
 
 // For each valid surface that `light` may reach (in front of it by the geometric normal): one ray from the surface, origin moved off
 // it by the error bound, to the light, appended to rays; surface_of_ray[i] names the surface of ray i. With plan.lifted_rays also where the
@@ -38,9 +18,8 @@ void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, RayBatch& 
 void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]);
 
 // radiance[c][i] += light reflected toward the viewer. lit: one bit a surface (32 a word), nullptr = all lit.
-// cache: Gouraud at primary hits; nullptr: Gouraud lights the three corners seen from each ray's origin.
 void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, int light, const uint32_t* lit,
-                 LitVertexCache* cache, float* const radiance[3]);
+                 float* const radiance[3]);
 
 // Mirror rays of the surfaces whose mirror weight is not zero, with their differentials. surface_of_ray as above.
 void make_bounce_rays(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/light_kernel.cpp"
 #include "hwy/foreach_target.h"
-#include "shade/light_lanes-inl.h"
+#include "shade/triangle_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -33,22 +33,12 @@ void shade_ambient_kernel(const Frame& frame, const SurfaceBatch& s, float* cons
   }
 }
 
-// Where light is evaluated for a surface.
-struct Site { V3 position, normal, view; };
-
-// The centroid of the face, with the face normal: equal for all pixels of a face, up to the rounding of its normal.
 HWY_INLINE Site flat_site(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, Mask active, int i) {
   const SceneData& scene = *frame.scene;
   const I32 primitive = select(active, I32::load(s.primitive + i), I32::zero());
   V3 corner[3];
   for (int j = 0; j < 3; ++j) corner[j] = vertex_position(scene, corner_vertex(scene, primitive, j));
-  Site site;
-  site.position = {formula::shading::flat::centroid(corner[0].x, corner[1].x, corner[2].x),
-                   formula::shading::flat::centroid(corner[0].y, corner[1].y, corner[2].y),
-                   formula::shading::flat::centroid(corner[0].z, corner[1].z, corner[2].z)};
-  site.normal = load3(s.geometric_normal, i);
-  site.view = view_from(viewer_of(frame, s, hits, active, i), site.position);
-  return site;
+  return face_site(corner, load3(s.geometric_normal, i), viewer_of(frame, s, hits, active, i));
 }
 
 // Adds one light to each surface: intensity * attenuation * (Kd * diffuse + Ks * specular) (catalog/reflectance).
@@ -61,7 +51,7 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
   const SceneData& scene = *frame.scene;
   const Light& light = light_of(frame, light_index);
   const LightLanes lanes = broadcast_light(light);
-  const bool flat = frame.settings.shading == Shading::kFlat, fast_powers = frame.settings.powers == Powers::kFast;
+  const bool flat = frame.settings.shading == Shading::kFlat;
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, lit);
     if (!any(active)) continue;
@@ -82,13 +72,10 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
       const F32 brightest = max_(max_(F32::load(s.specular[0] + i), F32::load(s.specular[1] + i)), F32::load(s.specular[2] + i));
       specular = any(active & (brightest > F32::zero()));  // 0 * specular adds nothing: the bits are the same
     }
-    Cosines c = formula::cosines(site.normal, incidence.direction, site.view, n_l, F32::load(s.shininess + i), fast_powers);
-    if (specular) formula::add_half_way(c, site.normal, incidence.direction, site.view);
     const I32 material = select(active, I32::load(s.material + i), I32::zero());
-    Reflected factor = reflect(reflectance_models(scene, material), active, specular, c);
-    factor.diffuse = factor.diffuse * incidence.attenuation;
-    factor.specular = factor.specular * incidence.attenuation;
-    accumulate(s, i, active, light, factor, specular, radiance);
+    const I32 model = reflectance_models(scene, material);
+    accumulate(s, i, active, light, light_site(frame, site, incidence, n_l, F32::load(s.shininess + i), model, active, specular), specular,
+               radiance);
   }
 }
 

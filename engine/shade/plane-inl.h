@@ -10,6 +10,7 @@
 
 #include <cstring>
 
+#include "shade/triangle_light-inl.h"
 #include "shade/surface_group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +31,8 @@ enum PlaneFloat : int {
   kPlaneError = 46,                      // what the size of the triangle adds to position_error, and what each pixel from the anchor
   kPlaneMaterial = 49,                   // bits of the index
   kPlaneSlimness = 50,                   // the inverse of the triangle's smallest height
-  kPlaneFloatCount = 51
+  kPlaneFloatCount = 51,
+  kPlaneLight = kPlaneFloatCount  // of each light diffuse and specular, of the face, or (Gouraud) diffuse of the three corners, then specular
 };
 enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlaneRealCount = 3 };
 
@@ -46,14 +48,20 @@ inline constexpr int kPlaneLine = 16;  // planes side by side, whatever the inst
 // Planes that kPlaneHits hits see: field by field in lines of kPlaneLine planes.
 struct PlaneBlock {
   alignas(64) double real[kPlaneHits * kPlaneRealCount];
-  alignas(64) float single[kPlaneHits * kPlaneFloatCount];
   alignas(64) uint32_t primitive[kPlaneHits + kPlaneLine];
   alignas(64) uint32_t cell[kPlaneHits + kPlaneLine];
   alignas(64) uint32_t plane_of_hit[kPlaneHits];
+  float* single;
+  int fields;  // kPlaneFloatCount and those of light
   int planes = 0;
 
+  PlaneBlock(AlignedBuffer<float>& memory, int light_fields) : fields(kPlaneFloatCount + light_fields) {
+    memory.resize(static_cast<size_t>(kPlaneHits) * static_cast<size_t>(fields));
+    single = memory.data();
+  }
+
   double* reals(int plane) { return real + plane / kPlaneLine * (kPlaneLine * kPlaneRealCount) + plane % kPlaneLine; }
-  float* singles(int plane) { return single + plane / kPlaneLine * (kPlaneLine * kPlaneFloatCount) + plane % kPlaneLine; }
+  float* singles(int plane) { return single + plane / kPlaneLine * (kPlaneLine * fields) + plane % kPlaneLine; }
 };
 
 HWY_INLINE void store_plane(float* out, int field, F32 value) { value.store(out + field * kPlaneLine); }
@@ -120,6 +128,46 @@ HWY_INLINE void store_uv(float* out, const WeightPlanes& w, const CornerUv& c) {
   store_plane(out, kPlaneUv + 6, whole_u.whole), store_plane(out, kPlaneUv + 7, whole_v.whole);
 }
 
+HWY_INLINE int light_fields_of(const Frame& frame, int lights) { return (frame.settings.shading == Shading::kGouraud ? 6 : 2) * lights; }
+
+HWY_INLINE light_lanes::V3 as_vec3(const V3f& v) { return {v.x, v.y, v.z}; }
+
+// All lights at the corners of triangles, on the side that the eye sees.
+HWY_INLINE void store_corner_light(const Frame& frame, float* out, const TriangleLanes& t, const V3f& geometric) {
+  const SceneData& scene = *frame.scene;
+  const float* vertices = reinterpret_cast<const float*>(scene.vertices.data());
+  const light_lanes::CornerMaterial material = light_lanes::corner_material(scene, t.bits & i32(kTriangleMaterialMask));
+  const light_lanes::Viewer eye = light_lanes::eye_of(frame);
+  const V3d* const position[3] = {&t.v0, &t.v1, &t.v2};
+  light_lanes::Corner corner[3];
+  for (int j = 0; j < 3; ++j) {
+    corner[j].position = as_vec3(to_f32(*position[j]));
+    corner[j].normal = {t.vertex[j].real(vertices, 3), t.vertex[j].real(vertices, 4), t.vertex[j].real(vertices, 5)};
+    corner[j].view = light_lanes::view_from(eye, corner[j].position);
+  }
+  const Mask front = light_lanes::normals_in_front(corner, as_vec3(geometric)), all = first_lanes(kLanes);
+  int field = kPlaneLight;
+  for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i, field += 6)
+    light_lanes::with_kind(light_of(frame, i), [&](auto kind) HWY_ATTR {
+      const auto c = light_lanes::light_corners<decltype(kind)>(frame, light_lanes::broadcast_light(light_of(frame, i)), corner, material, front, all);
+      for (int j = 0; j < 3; ++j) store_plane(out, field + j, c.at[j].diffuse), store_plane(out, field + 3 + j, c.at[j].specular);
+    });
+}
+
+// All lights on the faces of triangles.
+HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleLanes& t, const V3f& geometric) {
+  const SceneData& scene = *frame.scene;
+  const light_lanes::CornerMaterial material = light_lanes::corner_material(scene, t.bits & i32(kTriangleMaterialMask));
+  const light_lanes::V3 corner[3] = {as_vec3(to_f32(t.v0)), as_vec3(to_f32(t.v1)), as_vec3(to_f32(t.v2))};
+  const light_lanes::Site site = light_lanes::face_site(corner, as_vec3(geometric), light_lanes::eye_of(frame));
+  int field = kPlaneLight;
+  for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i, field += 2)
+    light_lanes::with_kind(light_of(frame, i), [&](auto kind) HWY_ATTR {
+      const auto r = light_lanes::light_face<decltype(kind)>(frame, light_lanes::broadcast_light(light_of(frame, i)), site, material);
+      store_plane(out, field, r.diffuse), store_plane(out, field + 1, r.specular);
+    });
+}
+
 // kLanes planes from entry `at` on.
 // Source:   Olano and Greer 1997 (resolve-inl.h): the edge functions e of a primary ray are linear in the pixel. With s = sum(e) /
 //           sum(e at the anchor), b(pixel) - b(anchor) = (dx (e_x / sum - b s_x) + dy (e_y / sum - b s_y)) / s.
@@ -152,7 +200,8 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
   int field = kPlaneWeight;
   for (const F64* b : {&w.b1, &w.b2, &w.b1_x, &w.b2_x, &w.b1_y, &w.b2_y}) store_plane(out, field++, to_f32(*b));
   store_attribute(out, kPlanePosition, w, t.v0, side1, side2);
-  store_plane(out, kPlaneView, to_f32(-(broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y)));
+  if (frame.plan.views)
+    store_plane(out, kPlaneView, to_f32(-(broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y)));
   if (reads_textures(frame)) {
     const CornerUv c = corner_uv(scene, t);
     store_uv(out, w, c);
@@ -163,7 +212,11 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
   }
   const V3f geometric = geometric_normal(t, normal, from_eye);
   store_plane(out, kPlaneGeometric, geometric);
-  if (frame.settings.shading != Shading::kFlat) {
+  if (block.fields > kPlaneFloatCount) {
+    if (frame.settings.shading == Shading::kGouraud) store_corner_light(frame, out, t, geometric);
+    else store_face_light(frame, out, t, geometric);
+  }
+  if (frame.plan.normals && frame.settings.shading != Shading::kFlat) {
     const CornerNormals n = corner_normals(scene, t, geometric);
     store_attribute(out, kPlaneNormal, w, to_f64(n.n0), to_f64(n.d1), to_f64(n.d2));
   }

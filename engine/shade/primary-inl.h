@@ -106,11 +106,13 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   const PrimaryRays& rays = frame.primary;
   const V3f none{zero, zero, zero};
   const auto single = [](const float (&v)[3]) HWY_ATTR { return V3f{f32(v[0]), f32(v[1]), f32(v[2])}; };
-  point.view = unit_or(plane3(p, kPlaneView) - single(rays.single_step_x) * at.dx - single(rays.single_step_y) * at.dy, 0.0f, none);
+  point.view = none;
+  if (frame.plan.views)
+    point.view = unit_or(plane3(p, kPlaneView) - single(rays.single_step_x) * at.dx - single(rays.single_step_y) * at.dy, 0.0f, none);
   point.geometric = plane3(p, kPlaneGeometric);
   good = good & (dot(point.geometric, point.geometric) > zero);
   point.normal = point.geometric;
-  if (frame.settings.shading != Shading::kFlat)
+  if (frame.plan.normals && frame.settings.shading != Shading::kFlat)
     point.normal = normal_of_blend(frame, plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
   if (!frame.plan.bounces && !reads_textures(frame)) {
     point.material = bits_of(p.f(kPlaneMaterial));
@@ -130,6 +132,19 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   return good;
 }
 
+// SurfaceBatch::triangle_light of all lights that the surfaces carry.
+template <class Planes> HWY_INLINE void put_triangle_light(const Frame& frame, const SurfaceBatch& out, int at, const Planes& p, const V3f& weight) {
+  const bool corners = frame.settings.shading == Shading::kGouraud;
+  int field = kPlaneLight;
+  for (int i = 0; i < out.lights; ++i)
+    for (int factor = 0; factor < 2; ++factor, field += corners ? 3 : 1) {
+      if (factor == 1 && !frame.plan.specular) continue;
+      F32 light = p.f(field);
+      if (corners) light = formula::shading::gouraud::interpolate(as_vec3(weight), light, p.f(field + 1), p.f(field + 2));
+      light.store(out.triangle_light(i, factor) + at);
+    }
+}
+
 // visit(planes) with the planes of hits [hit, hit + kLanes) of the block.
 template <class Visit> HWY_INLINE void with_planes(PlaneBlock& block, int hit, const Visit& visit) {
   constexpr int kMost = 4;  // beyond, gathers are as fast
@@ -139,7 +154,7 @@ template <class Visit> HWY_INLINE void with_planes(PlaneBlock& block, int hit, c
   for (uint32_t left = (1u << kLanes) - 1; left != 0; ++count) {
     if (count == kMost) {
       const I32 line = shift_right<4>(plane), lane = plane & i32(kPlaneLine - 1);
-      return visit(ManyPlanes{block.single, block.real, line * i32(kPlaneLine * kPlaneFloatCount) + lane,
+      return visit(ManyPlanes{block.single, block.real, line * i32(kPlaneLine * block.fields) + lane,
                               line * i32(kPlaneLine * kPlaneRealCount) + lane});
     }
     const uint32_t first = block.plane_of_hit[hit + __builtin_ctz(left)];

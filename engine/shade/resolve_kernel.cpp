@@ -124,9 +124,10 @@ HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at,
   put(g, out.primitive, lanes.primitive);
   put(g, out.material, point.material);
   put(g, out.valid, i32(1));
-  put(g, out.view, point.view);
+  if (out.fields & kSurfaceView) put(g, out.view, point.view);
   put(g, out.geometric_normal, point.geometric);
-  put(g, out.normal, frame.plan.bump ? point.normal : clamp_to_horizon(point.normal, point.geometric));
+  if (out.fields & kSurfaceNormal)
+    put(g, out.normal, frame.plan.bump ? point.normal : clamp_to_horizon(point.normal, point.geometric));
   if (reads_textures(frame)) uv = point.uv;
 }
 
@@ -141,16 +142,42 @@ void store_material(const Frame& frame, const SurfaceBatch& out, int at, const H
   put_material(g, m);
 }
 
+// put_triangle_light (primary-inl.h) for lanes whose triangles have no area: only their hits know where these face.
+HWY_NOINLINE void put_light_without_area(const Frame& frame, const SurfaceBatch& out, int at, Mask lanes, const HitLanes& hits, const PointLanes& point) {
+  const light_lanes::Viewer eye = light_lanes::eye_of(frame);
+  const light_lanes::V3 geometric = as_vec3(point.geometric), weight = as_vec3(point.weight);
+  for (int i = 0; i < out.lights; ++i)
+    light_lanes::with_kind(light_of(frame, i), [&](auto kind) HWY_ATTR {
+      using Kind = decltype(kind);
+      const light_lanes::LightLanes light = light_lanes::broadcast_light(light_of(frame, i));
+      const light_lanes::Reflected r = frame.settings.shading == Shading::kGouraud
+                                           ? light_lanes::light_triangles<Kind>(frame, light, hits.primitive, point.material, eye, geometric, weight, lanes)
+                                           : light_lanes::light_faces<Kind>(frame, light, hits.primitive, point.material, eye, geometric);
+      const auto put = [&](int factor, F32 value) HWY_ATTR {
+        float* const to = out.triangle_light(i, factor) + at;
+        select(lanes, value, F32::load(to)).store(to);
+      };
+      put(0, r.diffuse);
+      if (frame.plan.specular) put(1, r.specular);
+    });
+}
+
 template <class Planes>
 HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const SurfaceBatch& out, int at, const HitLanes& lanes,
                               const Planes& planes, UvLanes& uv) {
   const OffsetLanes offset = offsets_of(frame, hits, at);
   PointLanes point;
   const Mask good = primary_point(frame, planes, lanes.pixel, offset, point);
-  if (any(and_not(good, lanes.valid))) {
+  const Mask odd = and_not(good, lanes.valid);
+  if (any(odd)) {
     PointLanes mended = point;  // a copy has an address, so that the point itself may stay in registers
     resolve_odd(frame, lanes, offset, good, mended);
+    const Mask without_area = odd & !(dot(point.geometric, point.geometric) > F32::zero());
     point = mended;
+    put_triangle_light(frame, out, at, planes, point.weight);
+    if (out.lights > 0 && any(without_area)) put_light_without_area(frame, out, at, without_area, lanes, mended);
+  } else {
+    put_triangle_light(frame, out, at, planes, point.weight);
   }
   store_point(frame, out, at, lanes, point, uv);
 }
@@ -163,7 +190,7 @@ HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const Su
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
-  PlaneBlock planes;
+  PlaneBlock planes(out.planes, light_fields_of(frame, out.lights));
   int misses = 0;
   for (int at = 0; at < hits.count; at += kLanes) {
     if (primary && at % kPlaneHits == 0) {
@@ -200,14 +227,22 @@ namespace spanray {
 namespace {
 uint32_t surface_fields(const PlanFlags& plan) {
   return (plan.ambient ? kSurfaceAmbient : 0u) | (plan.emission ? kSurfaceEmission : 0u) | (plan.bounces ? kSurfaceMirror | kSurfaceFootprint : 0u) |
-         (plan.depths ? kSurfaceDepth : 0u) | (plan.weights ? kSurfaceWeight : 0u) | (plan.lifted_rays ? kSurfaceLift : 0u);
+         (plan.depths ? kSurfaceDepth : 0u) | (plan.weights ? kSurfaceWeight : 0u) | (plan.lifted_rays ? kSurfaceLift : 0u) |
+         (plan.normals ? kSurfaceNormal : 0u) | (plan.views ? kSurfaceView : 0u);
+}
+
+// Whether light can be a matter of triangles: not where a map says how sharp a flat face's highlight is, pixel by pixel.
+bool carry_light(const Frame& frame, const HitBatch& hits) {
+  if (hits.rays != nullptr || frame.settings.shading == Shading::kPhong) return false;
+  const bool mapped = frame.plan.textures && frame.plan.specular && (frame.plan.maps & kMapShininess) != 0;
+  return frame.settings.shading == Shading::kGouraud || !mapped;
 }
 }  // namespace
 
 const ResolveFn kResolve[kIsaCount] = SPANRAY_KERNEL_TABLE(resolve);
 
 void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
-  out.resize(hits.count, surface_fields(frame.plan));
+  out.resize(hits.count, surface_fields(frame.plan), carry_light(frame, hits) ? static_cast<int>(frame.scene->lights.size()) : 0);
   kResolve[isa_index(frame.isa)](frame, hits, out);
 }
 

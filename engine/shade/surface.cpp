@@ -13,23 +13,23 @@ constexpr size_t kVectorWords = 16;  // one widest vector, 64 bytes
 
 SurfaceBatch::SurfaceBatch() { resize(0); }
 
-void SurfaceBatch::resize(int n, uint32_t written) {
+void SurfaceBatch::resize(int n, uint32_t written, int with_lights) {
   static_assert(sizeof(float) == sizeof(uint32_t));
   struct Vector { float** field; uint32_t needs; };
-  const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, 0}, {view, 0}, {weight, kSurfaceWeight}, {diffuse, 0}, {specular, 0},
-                            {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint}, {ambient, kSurfaceAmbient},
-                            {emission, kSurfaceEmission}, {mirror, kSurfaceMirror},
-                            {lift, kSurfaceLift}, {smooth_normal, kSurfaceLift}};
+  const Vector vectors[] = {{position, 0}, {geometric_normal, 0}, {normal, kSurfaceNormal}, {view, kSurfaceView},
+                            {weight, kSurfaceWeight}, {diffuse, 0}, {specular, 0}, {dpdx, kSurfaceFootprint}, {dpdy, kSurfaceFootprint},
+                            {ambient, kSurfaceAmbient}, {emission, kSurfaceEmission}, {mirror, kSurfaceMirror}, {lift, kSurfaceLift}, {smooth_normal, kSurfaceLift}};
   struct Scalar { float** field; uint32_t needs; };
   const Scalar scalars[] = {{&position_error, 0}, {&t, kSurfaceDepth}, {&shininess, 0}, {&opacity, 0}};
   uint32_t** const words[] = {&pixel, &ray, &primitive, &material, &valid};
   constexpr size_t kFields = 3 * std::size(decltype(vectors){}) + std::size(decltype(scalars){}) + std::size(decltype(words){});
 
-  count = n, fields = written;
+  count = n, fields = written, lights = with_lights;
   plane_lanes = surface_lanes = {};
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
-  const size_t stride = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
-  storage_.resize(stride * (kFields + 1));
+  stride_ = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
+  const size_t stride = stride_;
+  storage_.resize(stride * (kFields + 1 + 2 * static_cast<size_t>(lights)));
   float* next = storage_.data();
   const auto take = [&] { return std::exchange(next, next + stride); };
   float* const zeros = take();
@@ -40,6 +40,7 @@ void SurfaceBatch::resize(int n, uint32_t written) {
   for (const Scalar& s : scalars) *s.field = take_if(s.needs);
   // Words live in the block of floats; kernels move both with the same untyped vector loads and stores.
   for (uint32_t** w : words) *w = reinterpret_cast<uint32_t*>(take());
+  triangle_light_ = next;
 }
 
 }  // namespace spanray

@@ -8,11 +8,12 @@ namespace spanray {
 
 // Fields that only some frames need.
 enum SurfaceFields : uint32_t { kSurfaceAmbient = 1, kSurfaceEmission = 2, kSurfaceMirror = 4, kSurfaceFootprint = 8,
-                                kSurfaceDepth = 16, kSurfaceWeight = 32, kSurfaceLift = 64, kSurfaceAllFields = 127 };
+                                kSurfaceDepth = 16, kSurfaceWeight = 32, kSurfaceLift = 64, kSurfaceNormal = 128,
+                                kSurfaceView = 256, kSurfaceAllFields = 511 };
 
 // Arrays of one float (or word) a surface; all are padded so that whole vectors may be read and written past count.
-// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy, lift, smooth_normal), and t and
-// weight where nobody reads them, are 0.
+// Fields of stages that the plan leaves out (ambient, specular, shininess, emission, mirror, dpdx, dpdy, lift, smooth_normal), and t,
+// weight, normal and view where nobody reads them, are 0.
 struct SurfaceBatch {
   int count = 0;
   uint32_t fields = 0;         // SurfaceFields that are written
@@ -33,13 +34,21 @@ struct SurfaceBatch {
   uint32_t *pixel, *ray, *primitive, *material;
   uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
 
+  int lights = 0;              // that the surfaces carry (triangle_light): all of the scene's or none
+  AlignedBuffer<float> planes;  // scratch of resolve_surfaces (shade/plane-inl.h)
+
   SurfaceBatch();
   // written: SurfaceFields. The others share one array of zeros: nothing else may be written there.
-  void resize(int n, uint32_t written = kSurfaceAllFields);
-  size_t memory_bytes() const { return storage_.bytes(); }
+  void resize(int n, uint32_t written = kSurfaceAllFields, int with_lights = 0);
+  // Gouraud and flat, of primary rays: attenuation * reflectance * cosine, interpolated from the corners or of the face. Factor 0: diffuse,
+  // times intensity and Kd it is radiance; 1: specular, only with plan.specular. nullptr without lights.
+  float* triangle_light(int light, int factor) const { return lights > 0 ? triangle_light_ + static_cast<size_t>(2 * light + factor) * stride_ : nullptr; }
+  size_t memory_bytes() const { return storage_.bytes() + planes.bytes(); }
 
  private:
   AlignedBuffer<float> storage_;
+  float* triangle_light_ = nullptr;
+  size_t stride_ = 0;  // entries of each array
 };
 
 // Recomputes the surface of each hit from its ray and the original triangle, from a setup in double: once a triangle and cell of the picture

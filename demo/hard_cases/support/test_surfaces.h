@@ -207,12 +207,12 @@ inline Light directional_light(const glm::dvec3& toward) {
 }
 
 // Ambient and all lights over the whole batch.
-inline TestRadiance shade_all(TestSurfaces& t, Isa isa, const std::vector<uint32_t>* lit = nullptr, LitVertexCache* cache = nullptr) {
+inline TestRadiance shade_all(TestSurfaces& t, Isa isa, const std::vector<uint32_t>* lit = nullptr) {
   t.frame().isa = isa;
   TestRadiance radiance(t.surfaces.count);
   shade_ambient(t.frame(), t.surfaces, radiance.at().p);
   for (int light = 0; light < static_cast<int>(t.scene().lights.size()); ++light)
-    shade_light(t.frame(), t.surfaces, t.hits, light, lit ? lit[light].data() : nullptr, cache, radiance.at().p);
+    shade_light(t.frame(), t.surfaces, t.hits, light, lit ? lit[light].data() : nullptr, radiance.at().p);
   return radiance;
 }
 
