@@ -44,6 +44,21 @@ struct ManyPlanes {
   HWY_INLINE F32 f(int field) const { return gather(single + field * kPlaneLine, single_offset); }
   HWY_INLINE F64 d(int field) const { return gather(real + field * kPlaneLine, real_offset); }
 };
+// Of planes that stand within four lines: permutations of these instead of gathers.
+struct NearPlanes {
+  const float* single;  // first line
+  int stride;           // from line to line
+  I32 plane;            // in these lines
+  Mask high;            // in the third or fourth
+  const double* real;
+  I32 real_offset;
+  HWY_INLINE F32 f(int field) const {
+    const float* const line = single + field * kPlaneLine;
+    const F32 a = lookup32(F32::load(line), F32::load(line + stride), plane);
+    return select(high, lookup32(F32::load(line + 2 * stride), F32::load(line + 3 * stride), plane), a);
+  }
+  HWY_INLINE F64 d(int field) const { return gather(real + field * kPlaneLine, real_offset); }
+};
 template <class Planes> HWY_INLINE V3f plane3(const Planes& p, int field) { return {p.f(field), p.f(field + 1), p.f(field + 2)}; }
 
 // Where hits lie from the anchor of their planes, in pixels, and the inverse of the relative 1 / depth there.
@@ -154,8 +169,15 @@ template <class Visit> HWY_INLINE void with_planes(PlaneBlock& block, int hit, c
   for (uint32_t left = (1u << kLanes) - 1; left != 0; ++count) {
     if (count == kMost) {
       const I32 line = shift_right<4>(plane), lane = plane & i32(kPlaneLine - 1);
-      return visit(ManyPlanes{block.single, block.real, line * i32(kPlaneLine * block.fields) + lane,
-                              line * i32(kPlaneLine * kPlaneRealCount) + lane});
+      const I32 real_offset = line * i32(kPlaneLine * kPlaneRealCount) + lane;
+      if constexpr (kHasLookup32) {
+        constexpr int kLines = 4, kMostLine = kPlaneHits / kPlaneLine - kLines;
+        const int lowest = static_cast<int>(min_of_lanes(line)), first = lowest < kMostLine ? lowest : kMostLine;
+        if (all(line < i32(first + kLines)))
+          return visit(NearPlanes{block.single + first * kPlaneLine * block.fields, kPlaneLine * block.fields, plane - i32(first * kPlaneLine),
+                                  line > i32(first + 1), block.real, real_offset});
+      }
+      return visit(ManyPlanes{block.single, block.real, line * i32(kPlaneLine * block.fields) + lane, real_offset});
     }
     const uint32_t first = block.plane_of_hit[hit + __builtin_ctz(left)];
     few.single[count] = block.singles(static_cast<int>(first)), few.real[count] = block.reals(static_cast<int>(first));

@@ -53,6 +53,7 @@ HWY_INLINE F32 f32(float x) { return {hn::Set(DF(), x)}; }
 HWY_INLINE I32 i32(int32_t x) { return {hn::Set(DI(), x)}; }
 HWY_INLINE I32 i32(uint32_t x) { return {hn::Set(DI(), static_cast<int32_t>(x))}; }
 HWY_INLINE float min_of_lanes(F32 a) { return hn::GetLane(hn::MinOfLanes(DF(), a.v)); }  // no NaN
+HWY_INLINE int32_t min_of_lanes(I32 a) { return hn::GetLane(hn::MinOfLanes(DI(), a.v)); }
 HWY_INLINE int32_t first_lane(I32 a) { return hn::GetLane(a.v); }
 // first, first + 1, ... Not Highway's Iota: it (1.0.3) writes the lanes one by one and reads them back as a vector, which stalls.
 HWY_INLINE I32 lane_iota(int32_t first = 0) {
@@ -145,6 +146,14 @@ HWY_INLINE I32 lookup(const uint32_t* table, I32 index) {
   const I32 words = {hn::LoadU(DI(), reinterpret_cast<const int32_t*>(table))};
   return {hn::TableLookupLanes(words.v, hn::IndicesFromVec(DI(), index.v))};
 }
+#if HWY_TARGET == HWY_AVX3  // Highway 1.0.3 has no permutation of two vectors
+inline constexpr bool kHasLookup32 = true;
+// The low five bits of `index` choose among the lanes of `low`, then those of `high`.
+HWY_INLINE F32 lookup32(F32 low, F32 high, I32 index) { return {hn::Vec<DF>{_mm512_permutex2var_ps(low.v.raw, index.v.raw, high.v.raw)}}; }
+#else
+inline constexpr bool kHasLookup32 = false;
+HWY_INLINE F32 lookup32(F32 low, F32, I32) { return low; }  // nobody asks
+#endif
 // The words as unsigned numbers: the smaller, and a < b.
 HWY_INLINE I32 min_unsigned(I32 a, I32 b) {
   const hn::RebindToUnsigned<DI> du;
