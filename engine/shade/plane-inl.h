@@ -232,49 +232,65 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
 class PlaneFinder {
  public:
   PlaneFinder(PlaneBlock& block, const Triangle* triangles) : block_(block), triangles_(triangles) { std::memset(slot_, 0xff, sizeof slot_); }
+  int count() const { return static_cast<int>(count_); }
   uint32_t find(uint32_t primitive, uint32_t cell) {
+    __builtin_prefetch(triangles_ + primitive);
+    // Written before it is known whether it is new: that cannot be predicted, so nothing branches on it.
+    block_.primitive[count_] = primitive, block_.cell[count_] = cell;
     for (uint32_t i = (primitive ^ cell * 0x85ebca6bu) * 0x9e3779b9u >> 16;; ++i) {  // Fibonacci hashing: neighbouring ids spread
-      int16_t& plane = slot_[i % kSlots];
-      if (plane < 0) plane = add(primitive, cell);
-      if (block_.primitive[plane] == primitive && block_.cell[plane] == cell) return static_cast<uint32_t>(plane);
+      uint16_t& slot = slot_[i % kSlots];
+      const uint32_t plane = slot < count_ ? slot : count_;  // count_ where the slot is free
+      if (((block_.primitive[plane] ^ primitive) | (block_.cell[plane] ^ cell)) != 0) continue;
+      slot = static_cast<uint16_t>(plane);
+      count_ += plane == count_;
+      return plane;
     }
   }
 
  private:
-  int16_t add(uint32_t primitive, uint32_t cell) {
-    __builtin_prefetch(triangles_ + primitive);
-    block_.primitive[block_.planes] = primitive, block_.cell[block_.planes] = cell;
-    return static_cast<int16_t>(block_.planes++);
-  }
-  static constexpr uint32_t kSlots = 2 * kPlaneHits;  // at most half full
+  static constexpr uint32_t kSlots = 4 * kPlaneHits;  // at most a quarter full
   PlaneBlock& block_;
   const Triangle* const triangles_;
-  int16_t slot_[kSlots];
+  uint32_t count_ = 0;
+  uint16_t slot_[kSlots];
 };
+
+HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
+  for (const uint32_t v : scene.triangles[primitive].vertex) __builtin_prefetch(&scene.vertices[v]);
+}
 
 // The planes of up to kPlaneHits hits from `at` on; misses stand for primitive 0.
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
-  block.planes = 0;
-  PlaneFinder finder(block, frame.scene->triangles.data());
+  const SceneData& scene = *frame.scene;
+  PlaneFinder finder(block, scene.triangles.data());
+  constexpr int kLag = 24;  // planes whose triangles are still on their way from memory
+  constexpr int kTogether = 3;  // triangles of a vector whose lanes are found by one comparison each; the others one by one
+  int fetched = 0;
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
     const I32 primitive = select(listed == i32(kNoPrimitive), i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
     uint32_t primitives[kLanes], cells[kLanes];
     primitive.store(primitives), cell.store(cells);
     I32 plane = i32(0);  // lanes past the last hit have the first
-    for (uint32_t left = to_bits(first_lanes(count - i)); left != 0;) {
+    uint32_t left = to_bits(first_lanes(count - i));
+    for (int found = 0; left != 0 && found < kTogether; ++found) {
       const int k = __builtin_ctz(left);
       const Mask same = (primitive == i32(primitives[k])) & (cell == i32(cells[k]));
       plane = select(same, i32(finder.find(primitives[k], cells[k])), plane);
       left &= ~to_bits(same);
     }
     plane.store(block.plane_of_hit + i);
+    for (; left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      block.plane_of_hit[i + k] = finder.find(primitives[k], cells[k]);
+    }
+    for (; fetched < finder.count() - kLag; ++fetched) prefetch_vertices(scene, block.primitive[fetched]);
   }
+  block.planes = finder.count();
   for (int i = 0; i < kPlaneLine; ++i)  // lanes past the last plane follow it
     block.primitive[block.planes + i] = block.primitive[block.planes - 1], block.cell[block.planes + i] = block.cell[block.planes - 1];
-  for (int i = 0; i < block.planes; ++i)
-    for (const uint32_t v : frame.scene->triangles[block.primitive[i]].vertex) __builtin_prefetch(&frame.scene->vertices[v]);
+  for (; fetched < block.planes; ++fetched) prefetch_vertices(scene, block.primitive[fetched]);
   for (int i = 0; i < block.planes; i += kLanes) set_up_planes(frame, block, i);
 }
 
