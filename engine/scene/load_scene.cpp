@@ -73,7 +73,8 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   PathFinder finder(folder_of(path), true);
   const Result<std::string> obj = finder.find(folder_of(path), file.value().obj);
   if (!obj) return Error{"obj: " + obj.error().message, path, file.value().obj_line};
-  if (Result<void> loaded = load_obj(obj.value(), options, file.value().moving, scene, messages); !loaded) return loaded;
+  if (Result<void> loaded = load_obj(obj.value(), options, file.value().moving, file.value().instances, scene, messages);
+      !loaded) return loaded;
   take_scene_file(file.value(), scene);
   if (Result<void> applied = apply_overrides(file.value(), path, scene, messages); !applied) return applied;
   complete(scene, file.value().lights.has_value(), path, options, messages);
@@ -88,7 +89,7 @@ Result<void> load_any(const std::string& path, const LoadOptions& options, Scene
     if (Result<std::string> text = read_text_file(path, std::numeric_limits<int64_t>::max()); !text) return text.error();
     return Error{"unknown kind of scene: the name must end in .obj or .toml", path};
   }
-  if (Result<void> loaded = load_obj(path, options, {}, scene, messages); !loaded) return loaded;
+  if (Result<void> loaded = load_obj(path, options, {}, {}, scene, messages); !loaded) return loaded;
   complete(scene, false, path, options, messages);
   return {};
 }

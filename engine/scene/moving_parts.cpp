@@ -1,10 +1,10 @@
 #include "scene/moving_parts.h"
 
 #include <algorithm>
-#include <set>
 
 #include "math/vec.h"
 #include "scene/obj_mesh.h"
+#include "scene/part_names.h"
 #include "scene/toml_table.h"
 
 namespace spanray {
@@ -16,17 +16,6 @@ constexpr double kLeastLength = 1e-12;
 constexpr Range kLength = {-1e12, 1e12};
 constexpr Range kDegrees = {-1e9, 1e9};
 constexpr Range kSeconds = {-1e9, 1e9};
-constexpr size_t kMostNamesShown = 12;
-
-// False where the axis is absent or wrong.
-bool read_axis(TomlTable& t, double axis[3]) {
-  glm::dvec3 a(0);
-  if (!t.vector3("axis", kAnyNumber, &a.x)) return false;
-  if (!(length3(a) > kLeastLength)) return t.fail("axis", "has no length"), false;
-  a = normalize3(a, glm::dvec3(0, 1, 0));
-  for (int k = 0; k < 3; ++k) axis[k] = a[k] + 0.0;
-  return true;
-}
 
 void read_keys(TomlTable& t, Motion& motion, bool axis_given, TomlErrors& errors) {
   for (const toml::table* table : t.tables("key")) {
@@ -74,31 +63,16 @@ Motion read_motion(const toml::table& table, const std::vector<Motion>& above, T
   return motion;
 }
 
-// Of `g`: the whole line, or a word of it.
-bool names_group(std::string_view line, std::string_view name) {
-  if (line == name) return true;
-  for (std::string_view word; !(word = next_word(line)).empty();)
-    if (word == name) return true;
-  return false;
-}
-
-Error unknown_part(const ObjMesh& mesh, const std::string& name, const std::string& file, int line) {
-  std::set<std::string> distinct;
-  for (const ObjFace& face : mesh.faces) {
-    distinct.insert({mesh.part_names[face.object], mesh.part_names[face.group]});
-    std::string_view rest = mesh.part_names[face.group];
-    for (std::string_view word; !(word = next_word(rest)).empty();) distinct.emplace(word);
-  }
-  distinct.erase("");
-  const std::vector<std::string> names(distinct.begin(), distinct.end());
-  std::string text = "no face of the mesh is in an object or group named " + quoted(name) + did_you_mean(name, names);
-  text += names.empty() ? "; the mesh names none" : "; there are ";
-  for (size_t i = 0; i < std::min(names.size(), kMostNamesShown); ++i) text += (i > 0 ? ", " : "") + quoted(names[i]);
-  if (names.size() > kMostNamesShown) text += " and " + std::to_string(names.size() - kMostNamesShown) + " more";
-  return {text, file, line};
-}
-
 }  // namespace
+
+bool read_axis(TomlTable& t, double axis[3]) {
+  glm::dvec3 a(0);
+  if (!t.vector3("axis", kAnyNumber, &a.x)) return false;
+  if (!(length3(a) > kLeastLength)) return t.fail("axis", "has no length"), false;
+  a = normalize3(a, glm::dvec3(0, 1, 0));
+  for (int k = 0; k < 3; ++k) axis[k] = a[k] + 0.0;
+  return true;
+}
 
 void read_moving(TomlTable& root, MovingParts& moving, TomlErrors& errors) {
   for (const toml::table* table : root.tables("moving")) {
@@ -115,12 +89,10 @@ Result<std::vector<uint32_t>> find_moving_faces(const ObjMesh& mesh, const Movin
   motion_of.assign(mesh.faces.size(), 0);
   for (size_t m = 0; m < moving.motions.size(); ++m) {
     const std::string& part = moving.motions[m].part;
-    std::vector<bool> is_object(mesh.part_names.size()), is_group(mesh.part_names.size());
-    for (size_t n = 0; n < mesh.part_names.size(); ++n)
-      is_object[n] = mesh.part_names[n] == part, is_group[n] = names_group(mesh.part_names[n], part);
+    const PartFilter filter(mesh.part_names, part);
     bool found = false;
     for (size_t f = 0; f < mesh.faces.size(); ++f) {
-      if (!is_object[mesh.faces[f].object] && !is_group[mesh.faces[f].group]) continue;
+      if (!filter.has(mesh.faces[f].object, mesh.faces[f].group)) continue;
       found = true;
       if (motion_of[f] != 0)
         return Error{"part " + quoted(part) + " has faces that are in " + quoted(moving.motions[motion_of[f] - 1].part) +

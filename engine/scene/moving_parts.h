@@ -18,6 +18,9 @@ struct MovingParts {
   std::vector<int> lines;       // of each one's `part`
 };
 
+// The key `axis`, made unit length; false where it is absent or wrong.
+bool read_axis(TomlTable& t, double axis[3]);
+
 // Reads all [[moving]] of a scene file: unknown keys, numbers that are not finite, times that do not increase, axes without length, a
 // part named twice, a carrier that is not above are errors.
 void read_moving(TomlTable& root, MovingParts& moving, TomlErrors& errors);

@@ -179,7 +179,8 @@ void report(const BuildReport& r, int unusable_line, const std::string& file, Me
 
 }  // namespace
 
-Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, SceneData& scene, Messages& messages) {
+Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, const InstanceList& instances, SceneData& scene,
+                      Messages& messages) {
   const Progress progress(options.progress);
   const Error stopped{kStopMessage, path};
   if (!progress("opening", 0)) return stopped;
@@ -193,6 +194,7 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, const
                  mesh.libraries[kMostLibraries].line};
   const Result<std::vector<uint32_t>> motion_of = find_moving_faces(mesh, moving);
   if (!motion_of) return motion_of.error();
+  if (const Result<void> checked = check_instances(mesh, motion_of.value(), instances); !checked) return checked;
   scene.motions = moving.motions;
 
   MaterialLoader materials(path, options, scene, messages, progress);
@@ -210,8 +212,8 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, const
   add_missing_normals(mesh, cosine, path, messages);
   const Soup soup = make_soup(mesh, material_of_used, motion_of.value(), path, messages, progress);
   if (!progress("merging vertices", 0)) return stopped;
-  const Result<BuildReport> built = build_geometry(soup.triangles, scene);
-  if (!built) return Error{built.error().message, path};
+  const Result<BuildReport> built = build_instanced_geometry(soup.triangles, instances, mesh.part_names, scene);
+  if (!built) return built.error().file.empty() ? Error{built.error().message, path} : built.error();
   scene.part_names = std::move(mesh.part_names);
   report(built.value(), soup.first_unusable_line, path, messages);
   if (scene.triangles.empty()) messages.warn(path, 0, "no triangles: the picture will show the background only");

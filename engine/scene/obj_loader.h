@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "scene/instance_list.h"
 #include "scene/moving_parts.h"
 #include "scene/scene_data.h"
 #include "scene/text_input.h"
@@ -9,8 +10,9 @@
 
 namespace spanray {
 
-// Fills materials, textures, geometry and motions of `scene` (which must be empty). Missing libraries, materials and textures are
+// Fills materials, textures, geometry, motions and instances of `scene` (which must be empty). Missing libraries, materials and textures are
 // warnings. Errors name file, line and cause.
-Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, SceneData& scene, Messages& messages);
+Result<void> load_obj(const std::string& path, const LoadOptions& options, const MovingParts& moving, const InstanceList& instances, SceneData& scene,
+                      Messages& messages);
 
 }  // namespace spanray

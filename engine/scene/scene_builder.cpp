@@ -11,8 +11,6 @@
 namespace spanray {
 namespace {
 
-constexpr size_t kMostVertices = size_t{1} << 27, kMostTriangles = size_t{1} << 28;  // word offsets of gathers stay below 2^31
-
 bool finite3(const float* p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 glm::dvec3 to_dvec(const float* p) { return {p[0], p[1], p[2]}; }
@@ -133,8 +131,7 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
       scene.parts.push_back({static_cast<uint32_t>(scene.triangles.size()), t.object, t.group});
     add_to_runs(scene.moving_triangles, static_cast<uint32_t>(scene.triangles.size()), t.motion);
     scene.triangles.push_back(triangle);
-    if (scene.vertices.size() > kMostVertices || scene.triangles.size() > kMostTriangles)
-      return Error{"the scene is too large: at most 2^27 distinct vertices and 2^28 triangles"};
+    if (!fits(scene.vertices.size(), scene.triangles.size())) return Error{kSceneTooLarge};
   }
   if (empty)
     for (int k = 0; k < 3; ++k) scene.bounds_min[k] = scene.bounds_max[k] = 0;

@@ -32,6 +32,10 @@ struct BuildReport {
   uint64_t zero_area = 0;           // kept (they cover no pixel), counted
 };
 
+// Word offsets of gathers stay below 2^31.
+inline bool fits(uint64_t vertices, uint64_t triangles) { return vertices <= uint64_t{1} << 27 && triangles <= uint64_t{1} << 28; }
+inline constexpr const char* kSceneTooLarge = "the scene is too large: at most 2^27 distinct vertices and 2^28 triangles";
+
 // Sorts the corners of a triangle into the canonical order (scene_data.h) and keeps its bits right.
 void order_vertices(const AlignedBuffer<Vertex>& vertices, Triangle& triangle);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/aligned.h"
+#include "scene/instance.h"
 #include "scene/motion.h"
 #include "spanray/camera.h"
 #include "spanray/settings.h"
@@ -13,7 +14,7 @@
 namespace spanray {
 
 // One 32-byte record, so that a gather of a vertex touches one cache line. Vertices are unique in
-// (position, normal, uv, material): a lit vertex (Gouraud) belongs to one material.
+// (position, normal, uv, material), but that each instance has its own: a lit vertex (Gouraud) belongs to one material.
 struct alignas(32) Vertex {
   float position[3];
   float normal[3];  // unit length
@@ -128,6 +129,10 @@ struct SceneTables {
   // and no vertex belongs to two parts.
   std::vector<Motion> motions;
   std::vector<MovingRun> moving_vertices, moving_triangles;
+  // Copies of parts. Their triangles and vertices stand in the arrays like any others, behind those of the OBJ: only trees may use that they
+  // are copies (ray/bvh_instances.h). Ascending, none overlap, none moves.
+  std::vector<InstancedPart> instanced_parts;
+  std::vector<Instance> instances;
   float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};  // of all triangles; equal if there are none
   uint64_t hash = 0;                // of everything that can reach a pixel, taken after loading
 };

@@ -191,7 +191,8 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   const Result<toml::table> parsed = parse_toml(text, file);
   if (!parsed) return parsed.error();
   TomlErrors errors(file);
-  TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material", "moving"},
+  TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material", "moving",
+                  "instance", "template"},
                  errors);
   SceneFile scene;
   const SceneData defaults;
@@ -215,6 +216,8 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   read_materials(root, scene, errors);
   scene.moving.file = file;
   read_moving(root, scene.moving, errors);
+  scene.instances.file = file;
+  read_instances(root, scene.instances, errors);
   if (errors.first()) return *errors.first();
   return scene;
 }

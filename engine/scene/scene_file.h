@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/instance_list.h"
 #include "scene/moving_parts.h"
 #include "scene/scene_data.h"
 #include "scene/text_input.h"
@@ -39,6 +40,7 @@ struct SceneFile {
   bool path_near_given = false;
   std::vector<MaterialOverride> materials;
   MovingParts moving;
+  InstanceList instances;
   float background[3], ambient[3];
   Settings settings;
 };
