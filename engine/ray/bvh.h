@@ -7,6 +7,9 @@
 
 namespace spanray {
 
+// Trees of two levels, where the scene has instances (ray/bvh_instances.h): where they are worth it, wherever possible, or never.
+enum class InstanceUse { kAuto, kAlways, kNever };
+
 class Bvh {
  public:
   Bvh();
@@ -20,14 +23,14 @@ class Bvh {
 
  private:
   friend class BvhRefit;  // ray/bvh_refit.h
-  friend Bvh build_bvh(const SceneData&, const uint32_t*, uint32_t, uint32_t, Parallel&, TreeQuality, bool);
+  friend Bvh build_bvh(const SceneData&, const uint32_t*, uint32_t, uint32_t, Parallel&, TreeQuality, bool, InstanceUse);
   std::unique_ptr<Data> data_;
 };
 
 // Builds over the triangles whose material flags satisfy (flags & mask) == value; material_flags as in Frame. The tree is the
 // same for any number of threads, and hits do not depend on it, nor on its quality. An empty set is allowed. follows_motion: for a BvhRefit.
 Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
-              TreeQuality quality = TreeQuality::kFast, bool follows_motion = false);
+              TreeQuality quality = TreeQuality::kFast, bool follows_motion = false, InstanceUse instances = InstanceUse::kAuto);
 
 // For each ray the primitive with the least t in [0, t_max], ties to the lowest id, kNoPrimitive if none. Masked materials ask
 // frame.accept_ray; Settings::culling applies. out: rays.count entries. For this and the next two: a hit must be provably in front

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ray/bvh_high.h"
+#include "ray/bvh_instances.h"
 #include "ray/bvh_parts.h"
 
 namespace spanray {
@@ -102,11 +103,17 @@ class NodeBuilder {
   std::vector<PendingSubtree>* pending_;
 };
 
-AlignedBuffer<Ref> collect_refs(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
+// left_out: ascending.
+AlignedBuffer<Ref> collect_refs(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
+                                const std::vector<TriangleRange>& left_out, Parallel& parallel) {
   AlignedBuffer<Ref> refs(scene.triangles.size());
-  size_t n = 0;
-  for (size_t i = 0; i < scene.triangles.size(); ++i)
-    if ((material_flags[material_of(scene.triangles[i])] & mask) == value) refs[n++].set_primitive(static_cast<uint32_t>(i));
+  size_t n = 0, next = 0;
+  const auto take_up_to = [&](size_t end) {
+    for (; next < end; ++next)
+      if ((material_flags[material_of(scene.triangles[next])] & mask) == value) refs[n++].set_primitive(static_cast<uint32_t>(next));
+  };
+  for (const TriangleRange& r : left_out) take_up_to(r.first), next = r.first + r.count;
+  take_up_to(scene.triangles.size());
   refs.resize(n);
   constexpr size_t kChunk = 16384;
   parallel.for_each((n + kChunk - 1) / kChunk, [&](size_t c, int) {
@@ -182,23 +189,35 @@ Bvh::Bvh() : data_(std::make_unique<Data>()) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 Bvh::~Bvh() = default;
-size_t Bvh::memory_bytes() const { return data_->nodes.bytes() + data_->blocks.bytes(); }
+size_t Bvh::memory_bytes() const {
+  return data_->nodes.bytes() + data_->blocks.bytes() + (data_->instances ? data_->instances->memory_bytes() : 0);
+}
 size_t Bvh::primitive_count() const { return data_->primitives; }
 
 Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
-              TreeQuality quality, bool follows_motion) {
+              TreeQuality quality, bool follows_motion, InstanceUse use) {
   Bvh bvh;
-  AlignedBuffer<Ref> refs = collect_refs(scene, material_flags, mask, value, parallel);
   Bvh::Data& data = *bvh.data_;
+  data.instances = build_instances(scene, material_flags, mask, value, parallel, quality, use);
+  AlignedBuffer<Ref> refs =
+      collect_refs(scene, material_flags, mask, value, data.instances ? data.instances->ranges : std::vector<TriangleRange>(), parallel);
   data.primitives = data.references = refs.size();
-  if (refs.empty()) return bvh;
-  if (bvh::WideTree wide; quality == TreeQuality::kHigh && bvh::build_high(scene, follows_motion, refs, parallel, wide)) take(wide, data);
-  else build_fast(scene, refs, parallel, data);
+  if (refs.empty() && !data.instances) return bvh;
   Box all = Box::empty();
-  const BvhNode& root = data.nodes[0];
-  for (int c = 0; c < kBvhWidth; ++c)
-    all.add({bvh::F4{root.bounds[0][c], root.bounds[1][c], root.bounds[2][c], 0},
-             bvh::F4{root.bounds[3][c], root.bounds[4][c], root.bounds[5][c], 0}});
+  if (refs.empty()) {
+    data.nodes.push_back(bvh::empty_node()), data.depth = 1;
+  } else {
+    if (bvh::WideTree wide; quality == TreeQuality::kHigh && bvh::build_high(scene, follows_motion, refs, parallel, wide)) take(wide, data);
+    else build_fast(scene, refs, parallel, data);
+    const BvhNode& root = data.nodes[0];
+    for (int c = 0; c < kBvhWidth; ++c)
+      all.add({bvh::F4{root.bounds[0][c], root.bounds[1][c], root.bounds[2][c], 0},
+               bvh::F4{root.bounds[3][c], root.bounds[4][c], root.bounds[5][c], 0}});
+  }
+  if (data.instances) {
+    all.add(bvh::box_of(data.instances->bounds_min, data.instances->bounds_max));
+    data.primitives += data.instances->triangles, data.references += data.instances->triangles;
+  }
   for (int k = 0; k < 3; ++k) data.bounds_min[k] = all.lo[k], data.bounds_max[k] = all.hi[k];
   return bvh;
 }

@@ -1,6 +1,7 @@
 // The bytes of the tree: the same for any number of threads and on every instruction set.
 #pragma once
 #include <cstdint>
+#include <memory>
 
 #include "core/aligned.h"
 #include "ray/bvh.h"
@@ -28,9 +29,15 @@ struct alignas(64) TriangleBlock {
   uint32_t primitive[kBvhWidth];
 };
 
+// Triangles first to first + count - 1 of a scene.
+struct TriangleRange { uint32_t first, count; };
+
+struct InstanceTrees;  // ray/bvh_instances.h
+
 struct Bvh::Data {
-  AlignedBuffer<BvhNode> nodes;  // the first is the root; none if there are no triangles
+  AlignedBuffer<BvhNode> nodes;  // the first is the root; none if there are no triangles at all
   AlignedBuffer<TriangleBlock> blocks;
+  std::shared_ptr<const InstanceTrees> instances;  // their triangles stand in no block; nullptr: none
   float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};
   size_t primitives = 0;
   size_t references = 0;  // triangles in leaves: more than `primitives` where parts of one stand in several

@@ -18,6 +18,8 @@ inline Box triangle_box(const SceneData& scene, const Triangle& t) {
   return box;
 }
 
+inline Box box_of(const float* lo, const float* hi) { return {F4{lo[0], lo[1], lo[2], 0}, F4{hi[0], hi[1], hi[2], 0}}; }
+
 inline BvhNode empty_node() {
   constexpr float inf = std::numeric_limits<float>::infinity();
   BvhNode node;

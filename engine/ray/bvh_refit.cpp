@@ -4,7 +4,8 @@
 #include <functional>
 
 #include "ray/bvh_data.h"
-#include "ray/bvh_split.h"
+#include "ray/bvh_instances.h"
+#include "ray/bvh_parts.h"
 
 namespace spanray {
 namespace {
@@ -129,7 +130,8 @@ void BvhRefit::refit(const SceneData& scene, Bvh& bvh, Parallel& parallel) {
     });
     for (const double cost : costs) moving_cost_ += cost;
   }
-  const Box root = node_box(data.nodes[0]);
+  Box root = node_box(data.nodes[0]);
+  if (data.instances) root.add(bvh::box_of(data.instances->bounds_min, data.instances->bounds_max));
   for (int k = 0; k < 3; ++k) data.bounds_min[k] = root.lo[k], data.bounds_max[k] = root.hi[k];
 }
 

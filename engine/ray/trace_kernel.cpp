@@ -20,6 +20,7 @@
 #include "ray/packet-inl.h"
 #include "ray/entrance-inl.h"
 #include "ray/closest_stream-inl.h"
+#include "ray/instance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -50,11 +51,15 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
   for (int first = 0; first < rays.count; first += kLanes) {
     packet.start(first);
     if (packet.p.valid == 0) continue;
-    if (!coherent(packet.p)) {
+    if (coherent(packet.p)) {
+      go_together(packet);
+    } else if (data.instances) {  // which want to know how far each ray came
+      packet.alone(0, nullptr, packet.p.valid);
+    } else {
       streams.add(packet);
       continue;
     }
-    go_together(packet);
+    if (data.instances) closest_of_instances(packet, *data.instances);
     for (int i = 0; i < kLanes && first + i < rays.count; ++i) out[first + i] = packet.best[i];
   }
   streams.finish();
@@ -88,6 +93,7 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
     }
   }
   stream.trace(out);
+  if (data.instances) any_of_instances(packet, *data.instances, out);
 }
 
 // Of the hits from `first` on, all of one ray: those of a triangle that stands in several leaves, but one.
@@ -112,6 +118,7 @@ void all_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
       AllVisitor visitor{batch, ray.exact, first + i, packet.lanes().limit[i], edges == HitsOnEdges::kOfOne, out};
       const size_t before = out.primitive.size();
       traverse(data, 0, 0.0f, ray, visitor);
+      if (data.instances) traverse_instances(*frame.scene, *data.instances, ray, visitor);
       if (data.references > data.primitives) drop_repeated(before, out);
     }
   }

@@ -118,7 +118,7 @@ struct Stack {
 
   // The children of a node that the ray meets, in no order and without distances: one is returned, the others wait.
   // kNothing if there are none.
-  HWY_INLINE uint32_t push_any(const BvhNode& node, const LaneRay& ray, float limit) {
+  template <class Ray> HWY_INLINE uint32_t push_any(const BvhNode& node, const Ray& ray, float limit) {
     const int bottom = top;
     for (int s = 0; s < kBvhWidth; s += kLanes8)
       top += store_chosen(node.child + s, box_children(node, s, ray, limit).meets, child + top);
@@ -126,7 +126,7 @@ struct Stack {
   }
 
   // The same, but the nearest is returned, and the others are popped nearest first.
-  HWY_INLINE uint32_t push_sorted(const BvhNode& node, const LaneRay& ray, float limit) {
+  template <class Ray> HWY_INLINE uint32_t push_sorted(const BvhNode& node, const Ray& ray, float limit) {
     alignas(32) float entry[kBvhWidth];
     uint32_t bits = 0;
     for (int s = 0; s < kBvhWidth; s += kLanes8) {

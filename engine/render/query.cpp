@@ -119,7 +119,7 @@ struct SceneQuery::Impl {
     frame.material_flags = for_rays.data();
     frame.accept_ray = accept_asked;
     Parallel all(0);
-    bvh = build_bvh(data, solid.data(), 0, 0, all);
+    bvh = build_bvh(data, solid.data(), 0, 0, all, TreeQuality::kFast, false, InstanceUse::kNever);  // ray/sweep.h knows one level
   }
 
   Frame frame_for(const std::vector<uint32_t>& flags) const {

@@ -31,27 +31,34 @@ float mapped(const double* row, const float* v, double offset) {
 }
 
 // The inverse transpose times the determinant's magnitude: cofactors, with the sign of a map that keeps hands.
-struct NormalMap {
-  double row[3][3];
+class NormalMap {
+ public:
   NormalMap(const AffineMap& map, bool mirrored) {
     for (int i = 0; i < 3; ++i) {
       const double *const a = map.linear[(i + 1) % 3], *const b = map.linear[(i + 2) % 3];
       for (int k = 0; k < 3; ++k) {
         const double cofactor = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-        row[i][k] = mirrored ? -cofactor : cofactor;
+        row_[i][k] = mirrored ? -cofactor : cofactor;
       }
     }
   }
-  // As a file that holds the rounded normal would have it: the loader makes normals unit length once more.
   void apply(const float* from, float* to) const {
     const glm::dvec3 up(from[0], from[1], from[2]);
     glm::dvec3 n;
-    for (int i = 0; i < 3; ++i) n[i] = row[i][0] * up.x + row[i][1] * up.y + row[i][2] * up.z;
-    n = normalize3(n, up);
-    for (int i = 0; i < 3; ++i) n[i] = static_cast<double>(static_cast<float>(n[i]));
-    n = normalize3(n, up);
-    for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(n[i]) + 0.0f;
+    for (int i = 0; i < 3; ++i) n[i] = row_[i][0] * up.x + row_[i][1] * up.y + row_[i][2] * up.z;
+    store_unit(n, up, to);
+    // As a file that holds the rounded normal would have it: the loader makes normals unit length once more.
+    store_unit({to[0], to[1], to[2]}, up, to);
   }
+
+ private:
+  // Not inlined: GCC 12 vectorises the way from double to float and back away (bug of its SLP pass at -O2 and -O3).
+  [[gnu::noinline]] static void store_unit(const glm::dvec3& n, const glm::dvec3& fallback, float* to) {
+    const glm::dvec3 unit = normalize3(n, fallback);
+    for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(unit[i]) + 0.0f;
+  }
+
+  double row_[3][3];
 };
 
 // Appends one copy of a part. False if it reaches too far out.

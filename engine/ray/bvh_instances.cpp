@@ -1,0 +1,257 @@
+#include "ray/bvh_instances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ray/bvh_parts.h"
+
+namespace spanray {
+namespace {
+
+using bvh::Box;
+using bvh::box_of;
+using bvh::F4;
+
+// Boxes of leaves grow by this times kPartMargin of a triangle's extent, at most. Rotations and uniform scales need 3.
+constexpr double kMostStretch = 16;
+// Boxes grow by at most this share of the part's extent on the way of a ray: the whole part is that much larger.
+constexpr double kMostSlack = 1.0 / 64;
+// Fewer triangles are faster in one tree.
+constexpr uint32_t kLeastTriangles = 64;
+constexpr uint64_t kLeastSaved = 1 << 16;
+
+// The triangles of an instance that the tree holds.
+struct Candidate {
+  uint32_t instance;
+  PlacedPart placed;
+  Box box = Box::empty();
+  uint32_t triangles = 0;
+  double stretch = 0;
+  bool usable = false;
+};
+
+bool invert(const double (&m)[3][3], double (&inverse)[3][3]) {
+  double cofactor[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, d = (k + 2) % 3;
+      cofactor[i][k] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+    }
+  const double det = m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
+  bool finite = true;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) inverse[k][i] = cofactor[i][k] / det, finite = finite && std::isfinite(inverse[k][i]);
+  return finite;
+}
+
+// The largest |coordinates| of a part, and the largest side of its box.
+struct Extent {
+  double reach[3] = {0, 0, 0}, side = 0;
+};
+Extent extent_of(const InstancedPart& part) {
+  Box box = Box::empty();
+  for (size_t i = 0; i < part.corners.size(); i += 3) box.add(box_of(&part.corners[i], &part.corners[i]));
+  Extent e;
+  for (int k = 0; k < 3 && !part.corners.empty(); ++k) {
+    const double lo = static_cast<double>(box.lo[k]), hi = static_cast<double>(box.hi[k]);
+    e.reach[k] = std::max(std::fabs(lo), std::fabs(hi)), e.side = std::max(e.side, hi - lo);
+  }
+  return e;
+}
+
+// PlacedPart's numbers (bvh_instances.h says why they suffice), and whether boxes stay tight enough.
+void take_map(const AffineMap& map, const Extent& part, Candidate& c) {
+  constexpr double kRounding = 0x1p-45, kGenerous = 1 + 0x1p-20;
+  PlacedPart& p = c.placed;
+  if (!invert(map.linear, p.part_from_world)) return;
+  double rough[3], far_out = 0, most_row = 0, most_inverse = 0;  // rough: what a coordinate is off by
+  for (int j = 0; j < 3; ++j) {
+    p.offset[j] = map.offset[j];
+    double row = 0, size = std::fabs(map.offset[j]);
+    for (int i = 0; i < 3; ++i) row += std::fabs(map.linear[j][i]), size += std::fabs(map.linear[j][i]) * part.reach[i];
+    far_out = std::max(far_out, size), most_row = std::max(most_row, row);
+  }
+  for (int j = 0; j < 3; ++j)
+    rough[j] = 1.01 * 0x1p-24 * static_cast<double>(std::max(std::fabs(c.box.lo[j]), std::fabs(c.box.hi[j]))) + 0x1p-32 * far_out + 0x1p-120;
+  c.usable = true;
+  for (int k = 0; k < 3; ++k) {
+    double slack = 0, inverse_row = 0;
+    for (int j = 0; j < 3; ++j) slack += std::fabs(p.part_from_world[k][j]) * rough[j], inverse_row += std::fabs(p.part_from_world[k][j]);
+    for (int i = 0; i < 3; ++i) {
+      double product = 0, size = 0;
+      for (int j = 0; j < 3; ++j) {
+        const double term = p.part_from_world[k][j] * map.linear[j][i];
+        product += term, size += std::fabs(term);
+      }
+      slack += (std::fabs(product - (i == k)) + 0x1p-50 * (size + 1)) * part.reach[i];
+    }
+    p.slack[k] = slack * kGenerous, p.slack_of_origin[k] = inverse_row * kRounding * kGenerous;
+    most_inverse = std::max(most_inverse, inverse_row);
+    c.usable = c.usable && slack <= kMostSlack * part.side;
+  }
+  c.stretch = most_row * most_inverse * kGenerous;
+  c.usable = c.usable && c.stretch <= kMostStretch;
+}
+
+// A node's boxes, made anew from those of its triangles' grown boxes.
+Box grow(PartTree& tree, const InstancedPart& part, double margin, uint32_t index) {
+  Box whole = Box::empty();
+  for (int c = 0; c < kBvhWidth; ++c) {
+    BvhNode& node = tree.nodes[index];
+    if (!(node.bounds[0][c] <= node.bounds[3][c])) continue;
+    Box box = Box::empty();
+    if ((node.child[c] & kLeafBit) == 0) {
+      box = grow(tree, part, margin, node.child[c]);
+    } else {
+      for (uint32_t i = 0; i < leaf_triangles(node.child[c]); ++i) {
+        const float* corner = &part.corners[size_t{9} * tree.leaves[leaf_block(node.child[c])].triangle[i]];
+        Box own = box_of(corner, corner);
+        own.add(box_of(corner + 3, corner + 3)), own.add(box_of(corner + 6, corner + 6));
+        double side = 0;
+        for (int k = 0; k < 3; ++k) side = std::max(side, static_cast<double>(own.hi[k]) - static_cast<double>(own.lo[k]));
+        for (int k = 0; k < 3; ++k) {
+          own.lo[k] = float_below(static_cast<double>(own.lo[k]) - margin * side);
+          own.hi[k] = float_above(static_cast<double>(own.hi[k]) + margin * side);
+        }
+        box.add(own);
+      }
+    }
+    bvh::set_box(node, c, box);
+    whole.add(box);
+  }
+  return whole;
+}
+
+// The triangles of a part as a scene of their own. model: an instance of it, for the materials.
+SceneData scene_of(const InstancedPart& part, const SceneData& scene, const Instance& model) {
+  SceneData own;
+  own.vertices.reserve(3 * part.triangles()), own.triangles.reserve(part.triangles());
+  for (uint32_t t = 0; t < part.triangles(); ++t) {
+    for (uint32_t v = 0; v < 3; ++v) {
+      Vertex vertex{};
+      std::copy_n(&part.corners[9 * size_t{t} + 3 * v], 3, vertex.position);
+      own.vertices.push_back(vertex);
+    }
+    own.triangles.push_back({{3 * t, 3 * t + 1, 3 * t + 2}, material_of(scene.triangles[model.first + t])});
+  }
+  return own;
+}
+
+template <class T> AlignedBuffer<T> copy_of(const AlignedBuffer<T>& from) { return AlignedBuffer<T>::copy(from); }
+
+PartTree make_part_tree(const InstancedPart& part, double margin, const Bvh& flat) {
+  PartTree tree;
+  tree.nodes = copy_of(flat.data().nodes);
+  tree.leaves.reserve(flat.data().blocks.size());
+  for (const TriangleBlock& block : flat.data().blocks) {
+    PartLeaf leaf;
+    std::copy_n(block.primitive, kBvhWidth, leaf.triangle);
+    tree.leaves.push_back(leaf);
+  }
+  grow(tree, part, margin, 0);
+  return tree;
+}
+
+// The tree over all places: built over triangles that have their boxes, then each of its leaves becomes a node.
+AlignedBuffer<BvhNode> make_top(const std::vector<Candidate>& places, Parallel& parallel, TreeQuality quality) {
+  SceneData boxes;
+  for (const Candidate& c : places) {
+    const uint32_t first = static_cast<uint32_t>(boxes.vertices.size());
+    for (const F4& corner : {c.box.lo, c.box.hi}) {
+      Vertex vertex{};
+      for (int k = 0; k < 3; ++k) vertex.position[k] = corner[k];
+      boxes.vertices.push_back(vertex);
+    }
+    boxes.triangles.push_back({{first, first + 1, first + 1}, 0});
+  }
+  constexpr uint32_t kNoFlags = 0;
+  const Bvh flat = build_bvh(boxes, &kNoFlags, 0, 0, parallel, quality, true, InstanceUse::kNever);
+  AlignedBuffer<BvhNode> nodes = copy_of(flat.data().nodes);
+  const size_t inner = nodes.size();
+  for (size_t n = 0; n < inner; ++n)
+    for (int c = 0; c < kBvhWidth; ++c) {
+      const uint32_t child = nodes[n].child[c];
+      if (!(nodes[n].bounds[0][c] <= nodes[n].bounds[3][c]) || (child & kLeafBit) == 0) continue;
+      const TriangleBlock& block = flat.data().blocks[leaf_block(child)];
+      BvhNode leaf = bvh::empty_node();
+      for (uint32_t i = 0; i < leaf_triangles(child); ++i)
+        bvh::set_box(leaf, static_cast<int>(i), places[block.primitive[i]].box), leaf.child[i] = kLeafBit | block.primitive[i];
+      nodes[n].child[c] = leaf_triangles(child) == 1 ? leaf.child[0] : static_cast<uint32_t>(nodes.size());
+      if (leaf_triangles(child) > 1) nodes.push_back(leaf);
+    }
+  return nodes;
+}
+
+// All instances that have triangles with this mask and value, with their numbers.
+std::vector<Candidate> find_candidates(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
+  std::vector<Extent> extents;
+  for (const InstancedPart& part : scene.instanced_parts) extents.push_back(extent_of(part));
+  std::vector<Candidate> all(scene.instances.size());
+  parallel.for_each(all.size(), [&](size_t i, int) {
+    const Instance& instance = scene.instances[i];
+    Candidate& c = all[i];
+    c.instance = static_cast<uint32_t>(i);
+    c.placed.first = instance.first, c.placed.part = instance.part;
+    for (uint32_t t = instance.first; t < instance.first + instance.count; ++t) {
+      const Triangle& triangle = scene.triangles[t];
+      if ((material_flags[material_of(triangle)] & mask) != value) continue;
+      c.box.add(bvh::triangle_box(scene, triangle)), ++c.triangles;
+    }
+    if (c.triangles > 0) take_map(instance.world_from_part, extents[instance.part], c);
+  });
+  return all;
+}
+
+// Drops what is not usable, and parts that are not worth a tree of their own.
+void choose(std::vector<Candidate>& all, size_t parts, InstanceUse use) {
+  std::erase_if(all, [](const Candidate& c) { return !c.usable; });
+  if (use == InstanceUse::kAlways) return;
+  std::vector<uint64_t> count(parts);
+  for (const Candidate& c : all) ++count[c.placed.part];
+  uint64_t saved = 0;
+  std::erase_if(all, [&](const Candidate& c) { return count[c.placed.part] < 2 || c.triangles < kLeastTriangles; });
+  for (const Candidate& c : all) saved += c.triangles - c.triangles / count[c.placed.part];
+  if (saved < kLeastSaved) all.clear();
+}
+
+}  // namespace
+
+size_t InstanceTrees::memory_bytes() const {
+  size_t bytes = nodes.bytes() + placed.capacity() * sizeof(PlacedPart) + ranges.capacity() * sizeof(TriangleRange);
+  for (const PartTree& part : parts) bytes += part.nodes.bytes() + part.leaves.bytes();
+  return bytes;
+}
+
+std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
+                                                     Parallel& parallel, TreeQuality quality, InstanceUse use) {
+  if (scene.instances.empty() || use == InstanceUse::kNever) return nullptr;
+  std::vector<Candidate> places = find_candidates(scene, material_flags, mask, value, parallel);
+  choose(places, scene.instanced_parts.size(), use);
+  if (places.empty()) return nullptr;
+
+  const auto trees = std::make_shared<InstanceTrees>();
+  std::vector<double> stretch(scene.instanced_parts.size(), 0);
+  std::vector<uint32_t> model(scene.instanced_parts.size(), 0);
+  Box all = Box::empty();
+  for (const Candidate& c : places) {
+    const Instance& instance = scene.instances[c.instance];
+    stretch[instance.part] = std::max(stretch[instance.part], c.stretch), model[instance.part] = c.instance;
+    trees->placed.push_back(c.placed);
+    trees->triangles += c.triangles;
+    trees->ranges.push_back({instance.first, instance.count});
+    all.add(c.box);
+  }
+  for (int k = 0; k < 3; ++k) trees->bounds_min[k] = all.lo[k], trees->bounds_max[k] = all.hi[k];
+  trees->parts.resize(scene.instanced_parts.size());
+  for (size_t p = 0; p < trees->parts.size(); ++p) {
+    if (stretch[p] == 0) continue;
+    const InstancedPart& part = scene.instanced_parts[p];
+    const SceneData own = scene_of(part, scene, scene.instances[model[p]]);
+    const Bvh flat = build_bvh(own, material_flags, mask, value, parallel, quality, true, InstanceUse::kNever);
+    trees->parts[p] = make_part_tree(part, stretch[p] * kPartMargin, flat);
+  }
+  trees->nodes = make_top(places, parallel, quality);
+  return trees;
+}
+
+}  // namespace spanray
