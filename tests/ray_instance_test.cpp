@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "core/hash.h"
 #include "support/instance_scene.h"
@@ -33,7 +34,7 @@ RayBatch rays_at_triangles(const SceneData& scene, TestRandom& random, int n) {
     if (i % 4 == 1) at = (v[0] + v[1]) * 0.5;
     if (i % 4 == 2) at = v[0] + (v[1] - v[0]) * random.uniform(0, 1);
     if (i % 4 == 3) at = v[0] + (v[1] - v[0]) * random.uniform(0, 0.5) + (v[2] - v[0]) * random.uniform(0, 0.5);
-    const double far = size * std::ldexp(1.0, random.between(-2, 12));
+    const double far = size * std::ldexp(1.0, random.between(-2, i % 7 == 1 ? 60 : 12));  // along an axis, rays hit from anywhere
     glm::dvec3 d = random_point(random, far);
     if (i % 7 == 0) d = (v[1] - v[0]) * random.uniform(-3, 3) + (v[2] - v[0]) * random.uniform(-3, 3);  // in its plane
     if (i % 7 == 1) d = {0, 0, 0}, d[random.below(3)] = i % 2 == 0 ? far : -far;
@@ -238,6 +239,47 @@ TEST(RayInstance, RaysThatAreNoneAndScenesOfInstancesOnly) {
       EXPECT_EQ(got.any[i], cases[i].hit) << isa_name(isa) << " ray " << i;
       EXPECT_EQ(got.closest[i], cases[i].hit ? 0 : kNoPrimitive) << isa_name(isa) << " ray " << i;
     }
+  }
+}
+
+// What the tree promises of boxes (ray/bvh_instances.h): points as far beside a triangle of the scene as a hit may be are inside the
+// box of its leaf, as rays see it.
+TEST(RayInstance, BoxesHoldWhatRaysMayHit) {
+  TestRandom random(79);
+  for (int n = 0; n < 6; ++n) {
+    auto t = scattered(random, 8, [&](int i, glm::dvec3& scale, glm::dvec3& offset) {
+      offset = random_point(random, std::ldexp(1.0, 2 * n));
+      scale = {random.uniform(0.4, 1), 1, i % 2 == 0 ? -1 : 0.6};
+    });
+    const Bvh two = build(*t, InstanceUse::kAlways);
+    const InstanceTrees& trees = *two.data().instances;
+    size_t checked = 0;
+    for (const PlacedPart& place : trees.placed) {
+      for (const BvhNode& node : trees.parts[place.part].nodes)
+        for (int c = 0; c < kBvhWidth; ++c) {
+          if (!(node.bounds[0][c] <= node.bounds[3][c]) || (node.child[c] & kLeafBit) == 0) continue;
+          const PartLeaf& leaf = trees.parts[place.part].leaves[leaf_block(node.child[c])];
+          for (uint32_t i = 0; i < leaf_triangles(node.child[c]); ++i) {
+            const uint32_t p = place.first + leaf.triangle[i];
+            glm::dvec3 lo(INFINITY), hi(-INFINITY);
+            for (int v = 0; v < 3; ++v) lo = glm::min(lo, scene_vertex(t->scene, p, v)), hi = glm::max(hi, scene_vertex(t->scene, p, v));
+            const double beside = 0x1p-11 * std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+            for (int s = 0; s < 24; ++s) {
+              const glm::dvec3 off((s & 1) != 0 ? beside : -beside, (s & 2) != 0 ? beside : -beside, (s & 4) != 0 ? beside : -beside);
+              const glm::dvec3 q = scene_vertex(t->scene, p, s / 8) + off;
+              for (int k = 0; k < 3; ++k) {
+                long double in_part = 0;
+                for (int j = 0; j < 3; ++j)
+                  in_part += static_cast<long double>(place.part_from_world[k][j]) * (static_cast<long double>(q[j]) - static_cast<long double>(place.offset[j]));
+                ASSERT_GE(in_part, static_cast<long double>(node.bounds[k][c]) - static_cast<long double>(place.slack[k])) << n << " triangle " << p;
+                ASSERT_LE(in_part, static_cast<long double>(node.bounds[k + 3][c]) + static_cast<long double>(place.slack[k])) << n << " triangle " << p;
+              }
+            }
+            ++checked;
+          }
+        }
+    }
+    EXPECT_EQ(checked, trees.triangles);
   }
 }
 
