@@ -255,12 +255,11 @@ TEST(RayInstance, BoxesHoldWhatRaysMayHit) {
     const InstanceTrees& trees = *two.data().instances;
     size_t checked = 0;
     for (const PlacedPart& place : trees.placed) {
-      for (const BvhNode& node : trees.parts[place.part].nodes)
+      for (const BvhNode& node : trees.parts[place.part])
         for (int c = 0; c < kBvhWidth; ++c) {
           if (!(node.bounds[0][c] <= node.bounds[3][c]) || (node.child[c] & kLeafBit) == 0) continue;
-          const PartLeaf& leaf = trees.parts[place.part].leaves[leaf_block(node.child[c])];
-          for (uint32_t i = 0; i < leaf_triangles(node.child[c]); ++i) {
-            const uint32_t p = place.first + leaf.triangle[i];
+          {
+            const uint32_t p = place.first + (node.child[c] & ~kLeafBit);
             glm::dvec3 lo(INFINITY), hi(-INFINITY);
             for (int v = 0; v < 3; ++v) lo = glm::min(lo, scene_vertex(t->scene, p, v)), hi = glm::max(hi, scene_vertex(t->scene, p, v));
             const double beside = 0x1p-11 * std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
@@ -288,11 +287,8 @@ uint64_t hash_of(const InstanceTrees& trees) {
   const auto add = [&](const AlignedBuffer<BvhNode>& nodes) {
     for (const BvhNode& n : nodes) hash.add(n.bounds, sizeof n.bounds).add(n.child, sizeof n.child);
   };
-  add(trees.nodes);
-  for (const PartTree& part : trees.parts) {
-    add(part.nodes);
-    for (const PartLeaf& leaf : part.leaves) hash.add(leaf.triangle, sizeof leaf.triangle);
-  }
+  add(trees.top);
+  for (const SingleTree& part : trees.parts) add(part);
   for (const PlacedPart& p : trees.placed)
     hash.add(p.part_from_world, sizeof p.part_from_world).add(p.slack, sizeof p.slack).add(p.slack_of_origin, sizeof p.slack_of_origin).add_word(p.first).add_word(p.part);
   return hash.value();

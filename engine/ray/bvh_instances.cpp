@@ -93,33 +93,50 @@ void take_map(const AffineMap& map, const Extent& part, Candidate& c) {
   c.usable = c.usable && c.stretch <= kMostStretch;
 }
 
-// A node's boxes, made anew from those of its triangles' grown boxes.
-Box grow(PartTree& tree, const InstancedPart& part, double margin, uint32_t index) {
+// The box of a triangle of a part; margin: in units of its extent.
+Box grown_box(const InstancedPart& part, uint32_t triangle, double margin) {
+  const float* corner = &part.corners[size_t{9} * triangle];
+  Box box = box_of(corner, corner);
+  box.add(box_of(corner + 3, corner + 3)), box.add(box_of(corner + 6, corner + 6));
+  double side = 0;
+  for (int k = 0; k < 3; ++k) side = std::max(side, static_cast<double>(box.hi[k]) - static_cast<double>(box.lo[k]));
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = float_below(static_cast<double>(box.lo[k]) - margin * side);
+    box.hi[k] = float_above(static_cast<double>(box.hi[k]) + margin * side);
+  }
+  return box;
+}
+
+// A node's boxes and those below it, made anew from those of the leaves.
+template <class BoxOf> Box refit(SingleTree& tree, uint32_t index, const BoxOf& box_of_leaf) {
   Box whole = Box::empty();
   for (int c = 0; c < kBvhWidth; ++c) {
-    BvhNode& node = tree.nodes[index];
-    if (!(node.bounds[0][c] <= node.bounds[3][c])) continue;
-    Box box = Box::empty();
-    if ((node.child[c] & kLeafBit) == 0) {
-      box = grow(tree, part, margin, node.child[c]);
-    } else {
-      for (uint32_t i = 0; i < leaf_triangles(node.child[c]); ++i) {
-        const float* corner = &part.corners[size_t{9} * tree.leaves[leaf_block(node.child[c])].triangle[i]];
-        Box own = box_of(corner, corner);
-        own.add(box_of(corner + 3, corner + 3)), own.add(box_of(corner + 6, corner + 6));
-        double side = 0;
-        for (int k = 0; k < 3; ++k) side = std::max(side, static_cast<double>(own.hi[k]) - static_cast<double>(own.lo[k]));
-        for (int k = 0; k < 3; ++k) {
-          own.lo[k] = float_below(static_cast<double>(own.lo[k]) - margin * side);
-          own.hi[k] = float_above(static_cast<double>(own.hi[k]) + margin * side);
-        }
-        box.add(own);
-      }
-    }
-    bvh::set_box(node, c, box);
+    const uint32_t child = tree[index].child[c];
+    if (!(tree[index].bounds[0][c] <= tree[index].bounds[3][c])) continue;
+    const Box box = (child & kLeafBit) != 0 ? box_of_leaf(child & ~kLeafBit) : refit(tree, child, box_of_leaf);
+    bvh::set_box(tree[index], c, box);
     whole.add(box);
   }
   return whole;
+}
+
+// From a tree over triangles that have the leaves' boxes, or smaller ones: each of its leaves becomes a node.
+template <class BoxOf> SingleTree make_single(const Bvh& flat, const BoxOf& box_of_leaf) {
+  SingleTree tree = SingleTree::copy(flat.data().nodes);
+  const size_t inner = tree.size();
+  for (size_t n = 0; n < inner; ++n)
+    for (int c = 0; c < kBvhWidth; ++c) {
+      const uint32_t child = tree[n].child[c];
+      if (!(tree[n].bounds[0][c] <= tree[n].bounds[3][c]) || (child & kLeafBit) == 0) continue;
+      const TriangleBlock& block = flat.data().blocks[leaf_block(child)];
+      BvhNode leaf = bvh::empty_node();
+      for (uint32_t i = 0; i < leaf_triangles(child); ++i)
+        bvh::set_box(leaf, static_cast<int>(i), box_of_leaf(block.primitive[i])), leaf.child[i] = kLeafBit | block.primitive[i];
+      tree[n].child[c] = leaf_triangles(child) == 1 ? leaf.child[0] : static_cast<uint32_t>(tree.size());
+      if (leaf_triangles(child) > 1) tree.push_back(leaf);
+    }
+  refit(tree, 0, box_of_leaf);
+  return tree;
 }
 
 // The triangles of a part as a scene of their own. model: an instance of it, for the materials.
@@ -137,23 +154,8 @@ SceneData scene_of(const InstancedPart& part, const SceneData& scene, const Inst
   return own;
 }
 
-template <class T> AlignedBuffer<T> copy_of(const AlignedBuffer<T>& from) { return AlignedBuffer<T>::copy(from); }
-
-PartTree make_part_tree(const InstancedPart& part, double margin, const Bvh& flat) {
-  PartTree tree;
-  tree.nodes = copy_of(flat.data().nodes);
-  tree.leaves.reserve(flat.data().blocks.size());
-  for (const TriangleBlock& block : flat.data().blocks) {
-    PartLeaf leaf;
-    std::copy_n(block.primitive, kBvhWidth, leaf.triangle);
-    tree.leaves.push_back(leaf);
-  }
-  grow(tree, part, margin, 0);
-  return tree;
-}
-
-// The tree over all places: built over triangles that have their boxes, then each of its leaves becomes a node.
-AlignedBuffer<BvhNode> make_top(const std::vector<Candidate>& places, Parallel& parallel, TreeQuality quality) {
+// The tree over all places, built over triangles that have their boxes.
+SingleTree make_top(const std::vector<Candidate>& places, Parallel& parallel, TreeQuality quality) {
   SceneData boxes;
   for (const Candidate& c : places) {
     const uint32_t first = static_cast<uint32_t>(boxes.vertices.size());
@@ -166,20 +168,7 @@ AlignedBuffer<BvhNode> make_top(const std::vector<Candidate>& places, Parallel& 
   }
   constexpr uint32_t kNoFlags = 0;
   const Bvh flat = build_bvh(boxes, &kNoFlags, 0, 0, parallel, quality, true, InstanceUse::kNever);
-  AlignedBuffer<BvhNode> nodes = copy_of(flat.data().nodes);
-  const size_t inner = nodes.size();
-  for (size_t n = 0; n < inner; ++n)
-    for (int c = 0; c < kBvhWidth; ++c) {
-      const uint32_t child = nodes[n].child[c];
-      if (!(nodes[n].bounds[0][c] <= nodes[n].bounds[3][c]) || (child & kLeafBit) == 0) continue;
-      const TriangleBlock& block = flat.data().blocks[leaf_block(child)];
-      BvhNode leaf = bvh::empty_node();
-      for (uint32_t i = 0; i < leaf_triangles(child); ++i)
-        bvh::set_box(leaf, static_cast<int>(i), places[block.primitive[i]].box), leaf.child[i] = kLeafBit | block.primitive[i];
-      nodes[n].child[c] = leaf_triangles(child) == 1 ? leaf.child[0] : static_cast<uint32_t>(nodes.size());
-      if (leaf_triangles(child) > 1) nodes.push_back(leaf);
-    }
-  return nodes;
+  return make_single(flat, [&](uint32_t place) { return places[place].box; });
 }
 
 // All instances that have triangles with this mask and value, with their numbers.
@@ -217,8 +206,8 @@ void choose(std::vector<Candidate>& all, size_t parts, InstanceUse use) {
 }  // namespace
 
 size_t InstanceTrees::memory_bytes() const {
-  size_t bytes = nodes.bytes() + placed.capacity() * sizeof(PlacedPart) + ranges.capacity() * sizeof(TriangleRange);
-  for (const PartTree& part : parts) bytes += part.nodes.bytes() + part.leaves.bytes();
+  size_t bytes = top.bytes() + placed.capacity() * sizeof(PlacedPart) + ranges.capacity() * sizeof(TriangleRange);
+  for (const SingleTree& part : parts) bytes += part.bytes();
   return bytes;
 }
 
@@ -248,9 +237,10 @@ std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, con
     const InstancedPart& part = scene.instanced_parts[p];
     const SceneData own = scene_of(part, scene, scene.instances[model[p]]);
     const Bvh flat = build_bvh(own, material_flags, mask, value, parallel, quality, true, InstanceUse::kNever);
-    trees->parts[p] = make_part_tree(part, stretch[p] * kPartMargin, flat);
+    const double margin = stretch[p] * kPartMargin;
+    trees->parts[p] = make_single(flat, [&](uint32_t triangle) { return grown_box(part, triangle, margin); });
   }
-  trees->nodes = make_top(places, parallel, quality);
+  trees->top = make_top(places, parallel, quality);
   return trees;
 }
 

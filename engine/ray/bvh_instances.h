@@ -21,16 +21,9 @@ namespace spanray {
 }
 [[gnu::always_inline]] inline float float_above(double x) { return -float_below(-x); }
 
-// Triangles of a leaf, numbered within their part: triangle i of an instance is first + i of the scene. Unused ones are 0.
-struct alignas(32) PartLeaf {
-  uint32_t triangle[kBvhWidth];
-};
-
-// As Bvh::Data, but leaf children name a PartLeaf, and boxes are grown: see below.
-struct PartTree {
-  AlignedBuffer<BvhNode> nodes;
-  AlignedBuffer<PartLeaf> leaves;
-};
+// Nodes as elsewhere, the first is the root, but every leaf is one thing with a box of its own: kLeafBit | its number. Vertices of a part's triangles
+// stand in the scene, far from each other, so a ray asks for as few as it can.
+using SingleTree = AlignedBuffer<BvhNode>;
 
 // Where a part stands. A ray goes into part space as part_from_world * (origin - offset), part_from_world * direction.
 //
@@ -42,7 +35,7 @@ struct PartTree {
 //   |coordinate j|, and rounding in double, less than 2^-50 (|M| |p| + |b|).
 // * So A (o + t' d - b) is p but for |A M - I| |p|, which is measured, and for |A| times those distances. Computing the ray's origin and direction
 //   in double adds less than |A| 2^-48 (omax + |b| + |q|).
-// * The triangle's extent is at most |M| times that in part space (largest row sums). Boxes of leaves are grown by `stretch` * kPartMargin of that, which is twice
+// * The triangle's extent is at most |M| times that in part space (largest row sums). Boxes of triangles are grown by `stretch` * kPartMargin of that, which is twice
 //   what is needed. All else is `slack`, by which boxes grow as a ray meets them, along each axis of the part.
 // slab() then rounds as it does elsewhere. What `slack` is made of is rounded up by far more than rounding in double.
 struct PlacedPart {
@@ -55,9 +48,9 @@ struct PlacedPart {
 };
 
 struct InstanceTrees {
-  std::vector<PartTree> parts;
+  std::vector<SingleTree> parts;   // leaves: triangles, numbered within their part: i of a place is triangle first + i of the scene
   std::vector<PlacedPart> placed;
-  AlignedBuffer<BvhNode> nodes;  // the first is the root; leaf children: kLeafBit | index into `placed`. Boxes are those of the scene's triangles.
+  SingleTree top;                  // leaves: indices into `placed`; boxes are those of the scene's triangles
   float bounds_min[3], bounds_max[3];
   size_t triangles = 0;          // of all places
   std::vector<TriangleRange> ranges;  // of the scene's triangles, ascending: no other tree needs to hold them

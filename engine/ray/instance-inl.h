@@ -71,63 +71,38 @@ HWY_INLINE void enter_part(const WorldRay& world, const PlacedPart& place, PartR
   }
 }
 
-// Triangles of a leaf as they stand in the scene. Unused lanes are zero.
-HWY_INLINE void gather_block(const SceneData& scene, uint32_t first, const PartLeaf& leaf, uint32_t count, TriangleBlock& block) {
-  for (uint32_t i = 0; i < kBvhWidth; ++i) {
-    if (i >= count) {
-      for (int v = 0; v < 3; ++v)
-        for (int k = 0; k < 3; ++k) block.vertex[v][k][i] = 0;
-      continue;
-    }
-    block.primitive[i] = first + leaf.triangle[i];
-    const Triangle& t = scene.triangles[block.primitive[i]];
-    for (int v = 0; v < 3; ++v) {
-      const float* const p = scene.vertices[t.vertex[v]].position;
-      for (int k = 0; k < 3; ++k) block.vertex[v][k][i] = p[k];
-    }
+// One triangle of the scene: vertices along the first axis, then coordinates.
+struct SceneTriangle {
+  float vertex[9];
+  HWY_INLINE SceneTriangle(const SceneData& scene, uint32_t primitive) {
+    const Triangle& t = scene.triangles[primitive];
+    for (int v = 0; v < 3; ++v)
+      for (int k = 0; k < 3; ++k) vertex[3 * v + k] = scene.vertices[t.vertex[v]].position[k];
   }
+  HWY_INLINE TriangleView view() const { return {vertex, 3, 1}; }
+};
+
+// True if the visitor wants to end. A closest hit is always known by its t here.
+template <class Visitor> HWY_INLINE bool visit_triangle(const SceneData& scene, uint32_t primitive, const LaneRay& ray, Visitor& visitor) {
+  if (primitive == ray.from) return false;
+  const SceneTriangle triangle(scene, primitive);
+  double t;
+  if (!hit_triangle(ray.exact, triangle.view(), t)) return false;
+  if constexpr (Visitor::kClosest) return visitor.hit(t, primitive, 0), false;
+  else return visitor.takes(triangle.view()) && visitor.hit(t, primitive);
 }
 
-// As visit_leaf(): true if the visitor wants to end. A closest hit is always known by its t here.
-template <class Visitor>
-HWY_INLINE bool visit_part_leaf(const SceneData& scene, uint32_t first, const PartLeaf& leaf, uint32_t child, const LaneRay& ray, Visitor& visitor) {
-  TriangleBlock block;
-  gather_block(scene, first, leaf, leaf_triangles(child), block);
-  CandidateDistances t_of;
-  const Candidates found = candidates<Visitor>(block, ray, visitor.limit, t_of);
-  const uint32_t used = leaf_lanes(child);
-  if constexpr (Visitor::kAny)
-    for (uint32_t bits = found.sure & used; bits != 0; bits &= bits - 1)
-      if (const uint32_t p = block.primitive[std::countr_zero(bits)]; p != ray.from && visitor.certain(p)) return true;
-  for (uint32_t bits = found.maybe & used; bits != 0; bits &= bits - 1) {
-    const int lane = std::countr_zero(bits);
-    if (block.primitive[lane] == ray.from) continue;
-    if constexpr (Visitor::kClosest)
-      if ((found.sure >> lane & 1u) != 0 && t_of.low[lane] > visitor.limit) continue;
-    const TriangleView triangle = triangle_of(block, lane);
-    double t;
-    if (!hit_triangle(ray.exact, triangle, t)) continue;
-    if constexpr (Visitor::kClosest) visitor.hit(t, block.primitive[lane], 0);
-    else if (visitor.takes(triangle) && visitor.hit(t, block.primitive[lane])) return true;
-  }
-  return false;
-}
-
-// As traverse(), of one place; true if the visitor wants to end.
-template <class Visitor>
-HWY_INLINE bool traverse_place(const SceneData& scene, const InstanceTrees& trees, const PlacedPart& place, const WorldRay& world, const LaneRay& ray,
-                               Visitor& visitor) {
-  const PartTree& tree = trees.parts[place.part];
-  PartRay in_part;
-  enter_part(world, place, in_part);
+// As traverse() of ray/traverse-inl.h: visit(number) is called for the leaves that the ray may meet, near first, but for kAny in no order; it
+// returns true to end, and so does this.
+template <class Visitor, class Ray, class Visit>
+HWY_INLINE bool traverse_single(const SingleTree& tree, const Ray& ray, const Visitor& visitor, const Visit& visit) {
   Stack stack;
   uint32_t child = 0;
   for (;;) {
     if ((child & kLeafBit) == 0) {
-      const BvhNode& node = tree.nodes[child];
-      child = Visitor::kAny ? stack.push_any(node, in_part, visitor.limit) : stack.push_sorted(node, in_part, visitor.limit);
+      child = Visitor::kAny ? stack.push_any(tree[child], ray, visitor.limit) : stack.push_sorted(tree[child], ray, visitor.limit);
       if (child != kNothing) continue;
-    } else if (visit_part_leaf(scene, place.first, tree.leaves[leaf_block(child)], child, ray, visitor)) {
+    } else if (visit(child & ~kLeafBit)) {
       return true;
     }
     do {
@@ -138,26 +113,21 @@ HWY_INLINE bool traverse_place(const SceneData& scene, const InstanceTrees& tree
   }
 }
 
-// Visits what the ray may hit of all instances, at no more than visitor.limit.
+// Visits what the ray may hit of one place; true if the visitor wants to end.
+template <class Visitor>
+HWY_INLINE bool traverse_place(const SceneData& scene, const InstanceTrees& trees, uint32_t index, const WorldRay& world, const LaneRay& ray, Visitor& visitor) {
+  const PlacedPart& place = trees.placed[index];
+  PartRay in_part;
+  enter_part(world, place, in_part);
+  return traverse_single(trees.parts[place.part], in_part, visitor,
+                         [&](uint32_t triangle) HWY_ATTR { return visit_triangle(scene, place.first + triangle, ray, visitor); });
+}
+
+// Of all places, at no more than visitor.limit.
 template <class Visitor>
 HWY_INLINE void traverse_instances(const SceneData& scene, const InstanceTrees& trees, const LaneRay& ray, Visitor& visitor) {
   const WorldRay world(ray);
-  Stack stack;
-  uint32_t child = 0;
-  for (;;) {
-    if ((child & kLeafBit) == 0) {
-      const BvhNode& node = trees.nodes[child];
-      child = Visitor::kAny ? stack.push_any(node, ray, visitor.limit) : stack.push_sorted(node, ray, visitor.limit);
-      if (child != kNothing) continue;
-    } else if (traverse_place(scene, trees, trees.placed[child & ~kLeafBit], world, ray, visitor)) {
-      return;
-    }
-    do {
-      if (stack.top == 0) return;
-      --stack.top;
-    } while (!Visitor::kAny && stack.near[stack.top] > visitor.limit);
-    child = stack.child[stack.top];
-  }
+  traverse_single(trees.top, ray, visitor, [&](uint32_t place) HWY_ATTR { return traverse_place(scene, trees, place, world, ray, visitor); });
 }
 
 // Of the rays of a packet that has found its closest hits elsewhere: what is nearer among instances.
