@@ -129,7 +129,7 @@ TEST_F(RenderInstance, TheSceneIsThatOfTheMeshWrittenOut) {
   }
 }
 
-TEST_F(RenderInstance, OnePictureByEitherAndByEitherTree) {
+TEST_F(RenderInstance, OnePictureByEither) {
   for (const Visibility visibility : {Visibility::kRaster, Visibility::kRay})
     for (const Shading shading : {Shading::kPhong, Shading::kGouraud})
       for (const Culling culling : {Culling::kNone, Culling::kBack}) {
@@ -141,6 +141,33 @@ TEST_F(RenderInstance, OnePictureByEitherAndByEitherTree) {
         EXPECT_EQ(a.frame.radiance, b.frame.radiance);
         EXPECT_EQ(a.frame.primitive, b.frame.primitive);
       }
+}
+
+// Enough copies that rays go down a tree of two levels (InstanceUse::kAuto), and the same scene whose instances nobody told of.
+TEST(RenderInstances, OnePictureByATreeOfTwoLevelsAndByOne) {
+  TempFolder folder;
+  Part part{make_sphere(5), {}};
+  for (size_t i = 0; i < part.mesh.triangles.size(); ++i) part.material.push_back(i % 40 < 30 ? "red" : "mirror");
+  folder.write("a.mtl", kMtl);
+  folder.write("a.obj", std::string("mtllib a.mtl\n") + kFloor + "o ball\n" + written(part, AffineMap()));
+  std::string toml = std::string("obj = \"a.obj\"\n") + kView + "[[template]]\npart = \"ball\"\n";
+  for (int i = 0; i < 216; ++i) {
+    char one[200];
+    std::snprintf(one, sizeof one, "[[instance]]\npart = \"ball\"\ntranslate = [%g, %g, %g]\naxis = [%d, 1, 2]\ndegrees = %d\nscale = %s\n", (i % 6 - 2.5) * 0.7,
+                  0.3 + 0.5 * (i / 36), (i / 6 % 6 - 3.5) * 0.7, i % 5, 50 * i, i % 2 == 0 ? "0.3" : "[-0.25, 0.2, 0.3]");
+    toml += one;
+  }
+  const std::string path = folder.write("a.toml", toml);
+  const Loaded instanced = must_load(path), flat = must_load(path);
+  const_cast<SceneData&>(flat.scene()).instances.clear();
+  Settings s;
+  s.width = 160, s.height = 120, s.threads = 2, s.visibility = Visibility::kRay, s.shadows = Shadows::kRay, s.reflections = Reflections::kRay;
+  const Picture a = render(instanced.loaded.scene, s), b = render(flat.loaded.scene, s);
+  EXPECT_EQ(a.frame.color.rgba, b.frame.color.rgba);
+  EXPECT_EQ(a.frame.depth, b.frame.depth);
+  EXPECT_EQ(a.frame.radiance, b.frame.radiance);
+  EXPECT_EQ(a.frame.primitive, b.frame.primitive);
+  EXPECT_LT(a.stats.memory_bytes + (100u << 20), b.stats.memory_bytes) << "one of them has a tree of two levels";
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ SceneFiles make_columns();
 SceneFiles make_gauze();
 SceneFiles make_glass();
 SceneFiles make_orrery();
+SceneFiles make_dahlia();
 
 // The gallery hall with about `triangles` (within 20 %; 10 thousand to 10 million).
 inline constexpr double kHallTriangles = 80e3;  // as shipped

@@ -43,6 +43,8 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("hall_aisle", "hall.toml", 1, all_on);
   add("orrery", "orrery.toml", 0, [](Settings& s) { s.time = 3; });
   add("orrery_later_rays", "orrery.toml", 1, [](Settings& s) { s.time = 11.5, s.visibility = Visibility::kRay; });
+  add("dahlia", "dahlia.toml", 0, all_on);
+  add("dahlia_rays", "dahlia.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
   const auto samples = [](int count, Antialiasing mode) {
     return [=](Settings& s) { s.width = 160, s.height = 90, s.samples = count, s.antialiasing = mode; };
   };
