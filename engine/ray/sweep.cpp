@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "ray/bvh_data.h"
+#include "ray/sweep_spheres.h"
 
 namespace spanray {
 namespace {
@@ -70,12 +71,11 @@ void sweep_leaf(const TriangleBlock& block, uint32_t triangles, Sweep& sweep, Sp
 SphereHit sweep_sphere(const Bvh& bvh, const glm::dvec3& start, const glm::dvec3& end, double radius) {
   const Bvh::Data& data = bvh.data();
   SphereHit best;
-  if (data.nodes.empty()) return best;
   Sweep sweep{start, end - start, radius, 0};
   sweep.length = length3(sweep.motion);
   Pending stack[kBvhStackSize];
   stack[0] = {0, 0};
-  for (int top = 1; top > 0;) {
+  for (int top = data.nodes.empty() ? 0 : 1; top > 0;) {
     const Pending entry = stack[--top];
     if (entry.near > sweep.latest) continue;
     if ((entry.child & kLeafBit) != 0) {
@@ -93,6 +93,7 @@ SphereHit sweep_sphere(const Bvh& bvh, const glm::dvec3& start, const glm::dvec3
       stack[at] = child;
     }
   }
+  sweep_spheres(data.spheres, start, sweep.motion, radius, best);
   return best;
 }
 
@@ -123,6 +124,7 @@ std::vector<SphereHit> touch_sphere(const Bvh& bvh, const glm::dvec3& center, do
       if (near) stack.push_back(node.child[c]);
     }
   }
+  touch_spheres(data.spheres, center, radius, hits);
   std::sort(hits.begin(), hits.end(), [](const SphereHit& a, const SphereHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.primitive < b.primitive;
   });

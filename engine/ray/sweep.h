@@ -13,11 +13,11 @@ struct SphereHit {
   double distance = 0;      // of a sphere at rest: from its center to the point
 };
 
-// The first triangle that a sphere touches on its way from `start` to `end` (first_contact(): all its promises hold), ties to the lowest
-// primitive; kNoPrimitive if none. Depends on the triangles only, not on the tree. start != end, radius > 0, all at most 1e30.
+// The first triangle, or sphere of the scene, that a sphere touches on its way from `start` to `end` (first_contact(): all
+// its promises hold), ties to the lowest primitive; kNoPrimitive if none. Depends on these only, not on the tree. start != end, radius > 0, all at most 1e30.
 SphereHit sweep_sphere(const Bvh& bvh, const glm::dvec3& start, const glm::dvec3& end, double radius);
 
-// Every triangle at most `radius` away from `center`, nearest first, ties by primitive. contact.time is 0.
+// Every triangle and sphere at most `radius` away from `center`, nearest first, ties by primitive. contact.time is 0.
 std::vector<SphereHit> touch_sphere(const Bvh& bvh, const glm::dvec3& center, double radius);
 
 }  // namespace spanray

@@ -30,7 +30,8 @@ Emitters::Emitters(const World& world) : world_(world) {
 }
 
 double Emitters::density(uint32_t primitive) const {
-  return power_ > 0 ? glow_[material_of(world_.scene.triangles[primitive])] / power_ : 0;
+  if (world_.scene.is_sphere(primitive)) return 0;
+  return power_ > 0 ? glow_[material_of(world_.scene, primitive)] / power_ : 0;
 }
 
 Emitters::Point Emitters::pick(double which, double u, double v) const {

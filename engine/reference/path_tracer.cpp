@@ -133,7 +133,9 @@ glm::dvec3 PathTracer::reflected(Surface s, const PathKey& key) const {
 glm::dvec3 PathTracer::radiance(int x, int y, uint32_t path) const {
   PathKey key{options_.seed, static_cast<uint32_t>(y) * kMaxImageSide + static_cast<uint32_t>(x), path, 0};
   const std::array<double, 4> place = key.draw(0, Draw::kPixel);
-  const Surface s = meet(ray_along(view_.eye, view_.direction(x + place[0], y + place[1])), view_.near, key, 0);
+  Ray eye = ray_along(view_.eye, view_.direction(x + place[0], y + place[1]));
+  eye.t_min = view_.near;
+  const Surface s = meet(eye, view_.near, key, 0);
   if (s.primitive == kNoPrimitive) return background_;
   glm::dvec3 sum(0);
   for (; key.branch < static_cast<uint32_t>(options_.branching); ++key.branch) sum += reflected(s, key);

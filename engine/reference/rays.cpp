@@ -35,6 +35,7 @@ Ray primary_ray(const View& view, const Places& places, size_t i, int x, int y) 
   Ray ray;
   ray.line = {view.eye, view.direction(x + places.at[i].x, y + places.at[i].y)};
   ray.direction_dx = view.right * places.side, ray.direction_dy = view.down * places.side;
+  ray.t_min = view.near;
   ray.x = x, ray.y = y;
   ray.rank_shift = static_cast<int>(i * 64 / places.at.size());
   return ray;

@@ -59,9 +59,32 @@ struct Surfaces::Point {
   Coordinates uv;
 };
 
+// As point_at, of a sphere, with the tangent plane for that of a triangle; v[0] is the center, the edges stand for its size.
+Surfaces::Point Surfaces::point_on_sphere(const Ray& ray, uint32_t primitive) const {
+  const Sphere& sphere = scene_.sphere(primitive);
+  const glm::dvec3 &o = ray.line.origin, &d = ray.line.direction;
+  Point p;
+  p.v[0] = to_dvec(sphere.center), p.edge1 = p.edge2 = glm::dvec3(sphere.radius);
+  double t[2] = {0, 0};
+  if (!meets(ray.line, p.v[0], sphere.radius, t)) t[0] = t[1] = dot3(p.v[0] - o, d) / dot3(d, d);
+  // The one that the ray was stopped by: rays start off the surface, by the clearance, so that one is in front.
+  const bool enters = t[0] > ray.t_min;
+  p.t = enters ? t[0] : t[1];
+  const glm::dvec3 outward = normalize3(o + d * p.t - p.v[0], glm::dvec3(0, 0, 1));
+  p.position = p.v[0] + outward * double{sphere.radius};
+  p.normal = p.geometric = enters ? outward : -outward;
+  const auto on_plane = [&](const glm::dvec3& origin_d, const glm::dvec3& direction_d) {
+    const glm::dvec3 moved = origin_d + direction_d * p.t;
+    return moved - d * (dot3(moved, p.normal) / dot3(d, p.normal));
+  };
+  p.position_dx = on_plane(ray.origin_dx, ray.direction_dx), p.position_dy = on_plane(ray.origin_dy, ray.direction_dy);
+  return p;
+}
+
 // o + t d = v0 + b1 edge1 + b2 edge2, by Cramer's rule; derivatives by differentiating it: the tip moves with the footprint,
 // then back along the ray onto the plane (Igehy 1999, 10 to 12).
 Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const {
+  if (scene_.is_sphere(primitive)) return point_on_sphere(ray, primitive);
   const Triangle& triangle = scene_.triangles[primitive];
   Point p;
   for (int k = 0; k < 3; ++k) p.v[k] = to_dvec(scene_.vertices[triangle.vertex[k]].position);
@@ -99,6 +122,12 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive, const Nud
 
 bool Surfaces::culled(const Ray& ray, uint32_t primitive) const {
   if (settings_.culling != Culling::kBack) return false;
+  if (scene_.is_sphere(primitive)) {
+    // Faces seen from within: all of it for rays from there, and nothing where it is entered.
+    double t[2];
+    const Sphere& sphere = scene_.sphere(primitive);
+    return !meets(ray.line, to_dvec(sphere.center), sphere.radius, t) || !(t[0] > ray.t_min);
+  }
   const Triangle& triangle = scene_.triangles[primitive];
   const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
   const glm::dvec3 n = cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0,
@@ -135,6 +164,7 @@ bool Surfaces::stops(const Ray& ray, uint32_t primitive, double opacity) const {
 
 // Blended corner normals, all turned to the side of the ray as one.
 glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive) const {
+  if (scene_.is_sphere(primitive)) return point.geometric;
   glm::dvec3 sum(0), blend(0);
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 corner = to_dvec(scene_.vertices[scene_.triangles[primitive].vertex[k]].normal);
@@ -148,6 +178,7 @@ glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive)
 // where it lies below them; kLiftShare of the way, as Phong tessellation goes (Boubekeur and Alexa 2008). Nothing for corners that agree, for what angles below 2^-16 would lift, and where the result is not above
 // the triangle.
 glm::dvec3 Surfaces::lift(const Point& point, uint32_t primitive, double clearance) const {
+  if (scene_.is_sphere(primitive)) return glm::dvec3(0);
   const Triangle& triangle = scene_.triangles[primitive];
   glm::dvec3 corner[3], sum(0), lift(0);
   for (int k = 0; k < 3; ++k) corner[k] = to_dvec(scene_.vertices[triangle.vertex[k]].normal), sum += corner[k];

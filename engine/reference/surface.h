@@ -20,6 +20,7 @@ Role role_of(const Material& material, const Settings& settings);
 struct Ray {
   Line line;
   glm::dvec3 origin_dx{0}, origin_dy{0}, direction_dx{0}, direction_dy{0};
+  double t_min = 0;    // its hits lie beyond: the near plane, of primary rays
   int x = 0, y = 0;    // the pixel that started it: where it stands in the screen-door pattern
   int rank_shift = 0;  // of the pattern, for the samples of a pixel
 };
@@ -49,11 +50,12 @@ class Surfaces {
   bool culled(const Ray& ray, uint32_t primitive) const;
   double stop_opacity(const Ray& ray, uint32_t primitive, const Nudge& nudge = {}) const;
   bool stops(const Ray& ray, uint32_t primitive, double opacity) const;
-  Role role(uint32_t primitive) const { return role_[material_of(scene_.triangles[primitive])]; }
-  const Material& material(uint32_t primitive) const { return scene_.materials[material_of(scene_.triangles[primitive])]; }
+  Role role(uint32_t primitive) const { return role_[material_of(scene_, primitive)]; }
+  const Material& material(uint32_t primitive) const { return scene_.materials[material_of(scene_, primitive)]; }
 
  private:
   struct Point;  // where the ray meets the plane of the triangle
+  Point point_on_sphere(const Ray& ray, uint32_t primitive) const;
   Point point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const;
   glm::dvec3 interpolated_normal(const Point& point, uint32_t primitive) const;
   glm::dvec3 lift(const Point& point, uint32_t primitive, double clearance) const;

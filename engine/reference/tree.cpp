@@ -52,6 +52,24 @@ bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t) {
   return std::isfinite(t);
 }
 
+bool meets(const Line& line, const glm::dvec3& center, double radius, double (&t)[2]) {
+  using Real = long double;
+  Real f[3], d[3], square = 0, along = 0;
+  for (int k = 0; k < 3; ++k) {
+    f[k] = Real{center[k]} - line.origin[k], d[k] = line.direction[k];
+    square += d[k] * d[k], along += f[k] * d[k];
+  }
+  if (!(square > 0)) return false;
+  const Real nearest = along / square;
+  Real away = 0;
+  for (int k = 0; k < 3; ++k) away += (f[k] - nearest * d[k]) * (f[k] - nearest * d[k]);
+  away = std::sqrt(away);
+  if (away > radius) return false;
+  const Real half = std::sqrt((radius - away) * (radius + away) / square);
+  t[0] = static_cast<double>(nearest - half), t[1] = static_cast<double>(nearest + half);
+  return true;
+}
+
 bool keeps(const Line& line, const glm::dvec3 (&v)[3]) {
   const Sheared s(line, v);
   int left = 0;
@@ -77,7 +95,13 @@ Tree::Tree(const SceneData& scene, const std::vector<uint32_t>& primitives) {
   std::vector<Reference> list;
   for (const uint32_t primitive : primitives) {
     Reference r{{}, {}, primitive};
-    for (const uint32_t vertex : scene.triangles[primitive].vertex) r.box.add(position(scene, vertex));
+    if (scene.is_sphere(primitive)) {
+      const Sphere& s = scene.sphere(primitive);
+      const glm::dvec3 center(s.center[0], s.center[1], s.center[2]), reach(s.radius * (1 + kMargin));
+      r.box.add(center - reach), r.box.add(center + reach);
+    } else {
+      for (const uint32_t vertex : scene.triangles[primitive].vertex) r.box.add(position(scene, vertex));
+    }
     r.center = (r.box.low + r.box.high) * 0.5;
     list.push_back(r);
   }
@@ -85,7 +109,9 @@ Tree::Tree(const SceneData& scene, const std::vector<uint32_t>& primitives) {
   build(list, 0, list.size());
   for (const Reference& r : list) {
     Item item{r.primitive, {}};
-    for (int k = 0; k < 3; ++k) item.v[k] = position(scene, scene.triangles[r.primitive].vertex[k]);
+    const bool sphere = scene.is_sphere(r.primitive);
+    if (sphere) item.v[0] = r.center, item.radius = scene.sphere(r.primitive).radius;
+    for (int k = 0; k < 3 && !sphere; ++k) item.v[k] = position(scene, scene.triangles[r.primitive].vertex[k]);
     item_.push_back(item);
   }
 }

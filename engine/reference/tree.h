@@ -1,4 +1,4 @@
-// Which triangles does a ray meet? In double, one ray at a time.
+// Which triangles and spheres does a ray meet? In double, one ray at a time.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -19,6 +19,11 @@ struct Line {
 // Contract: no line slips between triangles that share vertices. t lies within the range of the corners.
 bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
 
+// Does it meet the sphere, and at which two t, in order?
+// Source:   from the point of the line that is nearest to the center, to both sides: half a chord is the root of
+//           (r - distance) (r + distance). In long double.
+bool meets(const Line& line, const glm::dvec3& center, double radius, double (&t)[2]);
+
 // Of a line that meets the triangle: still, if it is moved sideways by as little as one likes, in a direction that is the same for all
 // triangles? Of those that share the edge or corner that it runs through, one says yes, if it crosses their surface there.
 bool keeps(const Line& line, const glm::dvec3 (&v)[3]);
@@ -28,7 +33,7 @@ struct Met {
   uint32_t primitive = kNoPrimitive;
 };
 
-// A bounding volume hierarchy over some triangles of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a
+// A bounding volume hierarchy over some primitives of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a
 // leaf. It only saves work: everything is decided by meets(), so the answers are those of asking every triangle.
 class Tree {
  public:
@@ -64,7 +69,8 @@ class Tree {
     });
     return found;
   }
-  // visit(primitive, v) for every triangle in a box that the region does not miss: misses(low, high). True ends the walk.
+  // visit(primitive, v) for every triangle in a box that the region does not miss: misses(low, high). True ends the walk. Not
+  // for scenes with spheres.
   template <class Misses, class Visit>
   void visit_region(const Misses& misses, const Visit& visit) const {
     descend([&](const Box& box) { return !misses(box.low, box.high); }, [&](const Item& item) { return visit(item.primitive, item.v); });
@@ -85,6 +91,7 @@ class Tree {
   struct Item {
     uint32_t primitive;
     glm::dvec3 v[3];
+    double radius = 0;  // > 0: a sphere around v[0]
   };
   struct Reference {
     Box box;
@@ -118,6 +125,11 @@ class Tree {
   void walk(const Line& line, double t_max, const Visit& visit) const {
     descend([&](const Box& box) { return enters(box, line, t_max); },
             [&](const Item& item) {
+              if (item.radius > 0) {  // met twice, where it is met
+                double t[2];
+                return meets(line, item.v[0], item.radius, t) &&
+                       ((t[0] <= t_max && visit(item, t[0], t_max)) || (t[1] <= t_max && visit(item, t[1], t_max)));
+              }
               double t;
               return meets(line, item.v, t) && t <= t_max && visit(item, t, t_max);
             });

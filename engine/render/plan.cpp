@@ -70,7 +70,8 @@ bool is_smooth(const SceneData& scene, const Triangle& t) {
 SceneUse find_scene_use(const SceneData& scene) {
   SceneUse use;
   use.material_used.assign(scene.materials.size(), false);
-  use.any_triangle = !scene.triangles.empty();
+  use.any_surface = !scene.triangles.empty() || !scene.spheres.empty();
+  for (const Sphere& s : scene.spheres) use.material_used[s.material] = true;
   for (const Triangle& t : scene.triangles) use.material_used[material_of(t)] = true;
   use.any_smooth = std::any_of(scene.triangles.begin(), scene.triangles.end(),
                                [&](const Triangle& t) { return is_smooth(scene, t); });
@@ -83,7 +84,7 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   for (const Material& m : scene.materials) plan.material_flags.push_back(material_flags(m, s));
   const Wants w = find_wants(scene, use, plan.material_flags);
   const int lights = static_cast<int>(scene.lights.size());
-  const bool lit = lights > 0 && use.any_triangle;
+  const bool lit = lights > 0 && use.any_surface;
   const bool raster = s.visibility == Visibility::kRaster;
   PlanFlags& f = plan.flags;
   Lines lines(plan.lines);
@@ -93,16 +94,19 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   const int parts = static_cast<int>(scene.motions.size());
   f.motion = lines.add("pose", true, "", parts, counted(static_cast<uint64_t>(parts), "moving part", "moving parts") + " with " + counted(moving, "triangle", "triangles"),
                        "nothing moves");
-  f.raster = lines.add("transform, clip, bin, raster", raster, "visibility is by rays", use.any_triangle,
+  if (!scene.spheres.empty())
+    lines.add("spheres", true, "", 1,
+              counted(scene.spheres.size(), "sphere", "spheres") + ": exact rays within bounds on the screen", "");
+  f.raster = lines.add("transform, clip, bin, raster", raster, "visibility is by rays", use.any_surface,
                        "visibility is by rasterization", "the scene has no triangle");
-  f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_triangle, "visibility is by rays",
+  f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_surface, "visibility is by rays",
                              "the scene has no triangle");
   const std::string shaded_once = s.antialiasing == Antialiasing::kSupersample ? ", each shaded" : ", shaded once a surface";
-  f.samples = lines.add("anti-aliasing", s.samples > 1, "one sample a pixel", use.any_triangle,
+  f.samples = lines.add("anti-aliasing", s.samples > 1, "one sample a pixel", use.any_surface,
                         std::to_string(s.samples) + " samples a pixel" + shaded_once, "the scene has no triangle");
   const bool each_shaded = s.samples > 1 && s.antialiasing == Antialiasing::kSupersample;
   f.coarse_quads = lines.add("shading rate 2x2", s.shading_rate == ShadingRate::k2x2 && !each_shaded,
-                             each_shaded ? "every sample is shaded" : "every pixel is shaded", use.any_triangle,
+                             each_shaded ? "every sample is shaded" : "every pixel is shaded", use.any_surface,
                              "squares of 2 x 2 pixels that see one surface are shaded once", "the scene has no triangle");
   f.masks = lines.add("accept masks", true, "", w.masked, materials_text(w.masked, "masked: alpha mask or screen-door"),
                       "no material is masked");
@@ -138,7 +142,7 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
                         "no material mirrors");
   f.translucents = lines.add("composite", true, "", w.translucent, materials_text(w.translucent, "blended by alpha"),
                              "no material is translucent");
-  f.bvh = lines.add("BVH", f.shadow_rays || f.bounces || f.primary_rays, "no ray is traced", use.any_triangle, "rays are traced",
+  f.bvh = lines.add("BVH", f.shadow_rays || f.bounces || f.primary_rays, "no ray is traced", use.any_surface, "rays are traced",
                     "the scene has no triangle");
   lines.add("BVH refit", f.bvh, "no ray is traced", parts, "trees follow the moving parts: boxes anew each frame, built anew where that grew too costly",
             "nothing moves");

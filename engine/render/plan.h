@@ -14,10 +14,10 @@ struct Plan {
   std::vector<PlanLine> lines;           // in the order of the frame
 };
 
-// What the triangles of a scene use, found once a scene: settings come later.
+// What the triangles and spheres of a scene use, found once a scene: settings come later.
 struct SceneUse {
-  std::vector<bool> material_used;  // by any triangle
-  bool any_triangle = false;
+  std::vector<bool> material_used;  // by any of them
+  bool any_surface = false;
   bool any_smooth = false;          // triangle whose corners have different normals
 };
 SceneUse find_scene_use(const SceneData& scene);

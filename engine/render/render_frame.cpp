@@ -30,11 +30,11 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
 }
 
 // The plan does not know what else the caller asks for.
-void leave_out_unread(const FrameRequest& request, Shading shading, PlanFlags& plan) {
+void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shading shading, PlanFlags& plan) {
   const bool all = request.ladder != nullptr;
   plan.depths = all || plan.translucents || request.depth;
   plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
-  plan.views = all || plan.bounces || shading == Shading::kPhong;
+  plan.views = all || plan.bounces || shading == Shading::kPhong || !scene.spheres.empty();
   plan.normals = plan.views || request.normal;
 }
 
@@ -53,6 +53,7 @@ struct Renderer::Impl {
   ClusterFates fates;
   ScreenVertices vertices;
   TileBins bins;
+  SphereBins spheres;
   std::vector<std::unique_ptr<TileWorker>> workers;
 
   void adopt(const Scene& new_scene, int threads) {
@@ -71,7 +72,7 @@ struct Renderer::Impl {
   const SceneData& standing() const { return posed ? posed->data() : scene.data(); }
 
   size_t memory_bytes() const {
-    size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + trees.memory_bytes();
+    size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + spheres.memory_bytes() + trees.memory_bytes();
     if (posed) bytes += posed->memory_bytes();
     if (clusters) bytes += clusters->memory_bytes() + fates.memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
@@ -94,7 +95,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   FrameStats stats;
   const double start = seconds_now();
   Plan plan = make_plan(scene.data(), use, settings);
-  leave_out_unread(request, settings.shading, plan.flags);
+  leave_out_unread(request, scene.data(), settings.shading, plan.flags);
   if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
   const RayTrees::Work followed = trees.update(standing(), plan, settings.tree, scene.data().moving_triangles, poses, *parallel);
 
@@ -118,8 +119,10 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   } else {
     counts.triangles_in = scene.data().triangles.size();
   }
+  if (!scene.data().spheres.empty()) stats.ms.bin += timed_ms([&] { bin_spheres(frame, spheres); });
   for (const auto& w : workers) w->counts = {}, w->clock.reset();
-  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), out, request};
+  const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), out, request,
+                     scene.data().spheres.empty() ? nullptr : &spheres};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
   });

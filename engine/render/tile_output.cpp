@@ -21,9 +21,10 @@ void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk)
   for (int i = 0; i < s.count; ++i) {
     if (!is_front_slot(level, level.slot_of_hit[i])) continue;
     const size_t pixel = static_cast<size_t>(s.pixel[i] >> 16) * width + (s.pixel[i] & 0xffff);
-    const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
     if (job.request.normal)
       for (size_t k = 0; k < 3; ++k) job.out.normal[3 * pixel + k] = s.normal[k][i];
+    if (scene.is_sphere(s.primitive[i])) continue;  // no texture coordinates: they stay 0
+    const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
     if (job.request.uv)
       for (size_t k = 0; k < 2; ++k)
         job.out.uv[2 * pixel + k] = s.weight[0][i] * scene.vertices[vertex[0]].uv[k] + s.weight[1][i] * scene.vertices[vertex[1]].uv[k] +

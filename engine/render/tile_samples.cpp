@@ -6,9 +6,9 @@
 #include <span>
 
 #include "frame/primary_rays.h"
-#include "raster/depth_plane.h"
 #include "raster/raster.h"
 #include "render/tile.h"
+#include "render/tile_spheres.h"
 
 namespace spanray {
 namespace {
@@ -16,19 +16,6 @@ namespace {
 // Where row y of a chunk begins in a plane of SampleHits::primitive.
 size_t tile_row(const TileGrid& grid, const Chunk& chunk, int y) {
   return static_cast<size_t>((y - grid.y0(chunk.tile)) * kTileSize + chunk.x0 - grid.x0(chunk.tile));
-}
-
-// The rasterizer's depth (raster/depth_plane.h) of a primitive at a picture position.
-float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
-  if (primitive == kNoPrimitive) return 0;
-  const Triangle& t = frame.scene->triangles[primitive];
-  double view_depth[3];
-  for (int i = 0; i < 3; ++i) {
-    const float* p = frame.scene->vertices[t.vertex[i]].position;
-    view_depth[i] = dot3(glm::dvec3(p[0], p[1], p[2]) - frame.primary.eye, frame.primary.forward);
-  }
-  const DepthPlane plane = make_depth_plane(frame, t, view_depth);
-  return std::clamp(static_cast<float>(plane.depth0 + y * plane.dy + x * plane.dx), plane.min, plane.max);
 }
 
 // The other engine: traces a chunk once a sample.
@@ -42,6 +29,7 @@ void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level
     make_primary_batch(job.frame, level.pixel.data(), chunk.pixels(), places.first() + s, seen.rays);
     seen.traced.resize(static_cast<size_t>(chunk.pixels()));
     trace_closest(job.frame, *job.opaque, seen.rays, seen.traced.data());
+    if (job.spheres != nullptr) add_spheres(job, chunk, places.first() + s, w, seen.traced.data());
     w.counts.rays_primary += static_cast<uint64_t>(chunk.pixels());
     for (int y = chunk.y0; y < chunk.y1; ++y)
       std::copy_n(seen.traced.data() + (y - chunk.y0) * chunk.columns, chunk.columns,
@@ -211,6 +199,7 @@ void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
   for (int s = 0; s < places.count; ++s) {
     rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
     w.counts.add(w.visible);
+    if (job.spheres != nullptr) w.counts.samples_passed += rasterize_spheres(job, tile, places.first() + s, w.visible);
     std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kSamplePlane);
     w.samples->fragments[s].clear();
     if (job.frame.plan.translucents)

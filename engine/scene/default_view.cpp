@@ -8,12 +8,12 @@
 namespace spanray {
 namespace {
 
-struct Sphere {
+struct Ball {
   glm::dvec3 center;
   double radius;
 };
 
-Sphere bounding_sphere(const SceneData& scene) {
+Ball bounding_sphere(const SceneData& scene) {
   glm::dvec3 low, high;
   for (int k = 0; k < 3; ++k) low[k] = scene.bounds_min[k], high[k] = scene.bounds_max[k];
   const double radius = length3(high - low) * 0.5;
@@ -25,7 +25,7 @@ Sphere bounding_sphere(const SceneData& scene) {
 double fitted_near_plane(const SceneData& scene) { return 2e-3 * bounding_sphere(scene).radius; }
 
 Camera fitted_camera(const SceneData& scene) {
-  const Sphere sphere = bounding_sphere(scene);
+  const Ball sphere = bounding_sphere(scene);
   Camera camera;
   double sine = 0, cosine = 0;
   sin_cos(camera.fov_y_degrees * 0.5 * (kPi / 180), &sine, &cosine);

@@ -216,7 +216,6 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, const
   if (!built) return built.error().file.empty() ? Error{built.error().message, path} : built.error();
   scene.part_names = std::move(mesh.part_names);
   report(built.value(), soup.first_unusable_line, path, messages);
-  if (scene.triangles.empty()) messages.warn(path, 0, "no triangles: the picture will show the background only");
   return {};
 }
 

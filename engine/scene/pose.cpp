@@ -41,6 +41,11 @@ PosedScene::PosedScene(const SceneData& rest) : rest_(rest), poses_(rest.motions
     for (next = run.first; next < run.first + run.count; ++next) add(run_bounds_[r], rest.vertices[next].position, rest.vertices[next].position);
   }
   add_still(rest.vertices.size());
+  for (const Sphere& s : rest.spheres) {
+    float low[3], high[3];
+    for (int k = 0; k < 3; ++k) low[k] = s.center[k] - s.radius, high[k] = s.center[k] + s.radius;
+    add(still_, low, high);
+  }
 }
 
 PosedScene::Bounds PosedScene::pose_vertices(const MovingRun& run, const RigidPose& pose) {

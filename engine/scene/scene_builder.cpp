@@ -138,6 +138,22 @@ Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneD
   return report;
 }
 
+bool usable_sphere(const Sphere& s) {
+  for (const float x : s.center)
+    if (!(std::fabs(x) + s.radius <= kMostCoordinate)) return false;
+  return s.radius > 0;
+}
+
+void add_sphere(const Sphere& sphere, SceneData& scene) {
+  const bool first = scene.triangles.empty() && scene.spheres.empty();
+  for (int k = 0; k < 3; ++k) {
+    const float low = sphere.center[k] - sphere.radius, high = sphere.center[k] + sphere.radius;
+    scene.bounds_min[k] = first ? low : std::min(scene.bounds_min[k], low);
+    scene.bounds_max[k] = first ? high : std::max(scene.bounds_max[k], high);
+  }
+  scene.spheres.push_back(sphere);
+}
+
 void hash_scene(SceneData& scene) {
   Hash hash;
   hash_buffer(hash, scene.vertices);
@@ -149,6 +165,7 @@ void hash_scene(SceneData& scene) {
   hash_vector(hash, scene.lights);
   if (scene.light_follows_eye) hash.add_word(1);
   if (!scene.motions.empty()) hash_motions(hash, scene);
+  if (!scene.spheres.empty()) hash_vector(hash, scene.spheres);
   hash.add(scene.ambient_radiance, sizeof scene.ambient_radiance).add(scene.background, sizeof scene.background);
   scene.hash = hash.value();
 }

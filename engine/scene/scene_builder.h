@@ -18,8 +18,8 @@ struct SoupTriangle {
 
 // Positions that scenes can hold: finite, each coordinate at most 1e30 like those of cameras, so that what is derived from
 // them (bounds, the default light) is finite too.
+inline constexpr float kMostCoordinate = 1e30f;
 inline bool usable_position(const float* p) {
-  constexpr float kMostCoordinate = 1e30f;
   for (int k = 0; k < 3; ++k)
     if (!(p[k] >= -kMostCoordinate && p[k] <= kMostCoordinate)) return false;
   return true;
@@ -44,6 +44,12 @@ void order_vertices(const AlignedBuffer<Vertex>& vertices, Triangle& triangle);
 // Material indices must be below scene.materials.size(), motions at most scene.motions.size(). Errors: too many vertices for 32-bit
 // gathers.
 Result<BuildReport> build_geometry(const std::vector<SoupTriangle>& soup, SceneData& scene);
+
+// Whether a scene can hold the sphere: radius > 0, no coordinate of it beyond kMostCoordinate.
+bool usable_sphere(const Sphere& sphere);
+
+// Adds a usable sphere, whose material is one of the scene's, behind all that is there; bounds grow. After build_geometry.
+void add_sphere(const Sphere& sphere, SceneData& scene);
 
 // Computes scene.hash from all that can reach a pixel. Call last.
 void hash_scene(SceneData& scene);

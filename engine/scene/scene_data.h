@@ -36,6 +36,13 @@ inline constexpr int kTriangleStride = 4;  // 32-bit words
 
 inline uint32_t material_of(const Triangle& t) { return t.bits & kTriangleMaterialMask; }
 
+// A sphere of [[sphere]] in a scene file. As a primitive, sphere i has the number triangles.size() + i.
+struct Sphere {
+  float center[3];
+  float radius;  // > 0; the whole sphere keeps within coordinates of 1e30
+  uint32_t material;
+};
+
 // How a material uses a texture: the options of its MTL line. Only 4-byte fields, so that lanes can gather them.
 struct TextureUse {
   int32_t texture = -1;          // index into SceneData::textures
@@ -133,7 +140,8 @@ struct SceneTables {
   // are copies (ray/bvh_instances.h). Ascending, none overlap, none moves.
   std::vector<InstancedPart> instanced_parts;
   std::vector<Instance> instances;
-  float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};  // of all triangles; equal if there are none
+  std::vector<Sphere> spheres;          // their materials are opaque, without maps; they stand still
+  float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};  // of all triangles and spheres; equal if there are none
   uint64_t hash = 0;                // of everything that can reach a pixel, taken after loading
 };
 
@@ -141,6 +149,14 @@ struct SceneData : SceneTables {
   AlignedBuffer<Vertex> vertices;
   AlignedBuffer<Triangle> triangles;
   AlignedBuffer<Texel> texels;
+
+  bool is_sphere(uint32_t primitive) const { return primitive >= triangles.size(); }  // of one that is there
+  const Sphere& sphere(uint32_t primitive) const { return spheres[primitive - triangles.size()]; }
 };
+
+// Of a primitive of either kind.
+inline uint32_t material_of(const SceneData& scene, uint32_t primitive) {
+  return scene.is_sphere(primitive) ? scene.sphere(primitive).material : material_of(scene.triangles[primitive]);
+}
 
 }  // namespace spanray

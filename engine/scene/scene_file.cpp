@@ -192,7 +192,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   if (!parsed) return parsed.error();
   TomlErrors errors(file);
   TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material", "moving",
-                  "instance", "template"},
+                  "instance", "template", "sphere"},
                  errors);
   SceneFile scene;
   const SceneData defaults;
@@ -218,6 +218,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   read_moving(root, scene.moving, errors);
   scene.instances.file = file;
   read_instances(root, scene.instances, errors);
+  read_spheres(root, scene.spheres, errors);
   if (errors.first()) return *errors.first();
   return scene;
 }

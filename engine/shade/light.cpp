@@ -2,6 +2,7 @@
 #include "shade/light.h"
 
 #include "shade/light_kernel.h"
+#include "shade/sphere_surface.h"
 
 namespace spanray {
 
@@ -20,8 +21,20 @@ void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* cons
 
 void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, int light, const uint32_t* lit,
                  float* const radiance[3]) {
+  const int isa = isa_index(frame.isa);
   const bool by_triangle = surfaces.lights > 0 || frame.settings.shading == Shading::kGouraud;
-  (by_triangle ? kShadeTriangleLight : kShadeLight)[isa_index(frame.isa)](frame, surfaces, hits, light, lit, radiance);
+  const ShadeLightFn shade = (by_triangle ? kShadeTriangleLight : kShadeLight)[isa];
+  if (frame.settings.shading == Shading::kPhong || frame.scene->spheres.empty()) return shade(frame, surfaces, hits, light, lit, radiance);
+  // Triangles as the settings say, spheres by the normal at each pixel.
+  {
+    const OnlyKind triangles(*frame.scene, surfaces, false);
+    shade(frame, surfaces, hits, light, lit, radiance);
+  }
+  const OnlyKind spheres(*frame.scene, surfaces, true);
+  if (spheres.none()) return;
+  Frame phong = frame;
+  phong.settings.shading = Shading::kPhong;
+  kShadeLight[isa](phong, surfaces, hits, light, lit, radiance);
 }
 
 void make_bounce_rays(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,

@@ -20,9 +20,10 @@ struct Ray {
   float t_min = 0, t_max = std::numeric_limits<float>::infinity();  // hits at exactly these count; none at t = 0
 };
 
-// Which triangle. Names are those of the files, "" where they give none; they live as long as the scene.
+// Which triangle or sphere. Names are those of the files, "" where they give none; they live as long as the scene.
 struct TriangleName {
-  uint32_t triangle = 0;  // index, as in Framebuffer::primitive
+  uint32_t triangle = 0;  // index, as in Framebuffer::primitive: of sphere i, the number of triangles + i
+  bool sphere = false;    // it is one
   uint32_t material_index = 0;
   std::string_view material, object, group;  // of MTL; of the OBJ's `o` and `g`
 };
@@ -32,7 +33,7 @@ struct RayHit {
   double t = 0;                 // in lengths of the ray's direction
   double distance = 0;          // world units from the ray's origin
   double position[3] = {0, 0, 0};
-  double normal[3] = {0, 0, 0};  // unit, of the triangle's plane, on its front side (counter-clockwise in the file)
+  double normal[3] = {0, 0, 0};  // unit; of the triangle's plane, on its front side (counter-clockwise in the file), or outward
   bool front = true;            // the ray comes from that side
 };
 
@@ -67,7 +68,7 @@ struct QueryOptions {
 };
 
 // Asks one scene. Copies share its tree. All questions may be asked from several threads at once. Answers come from the tracer of
-// frames: watertight, ties to the lowest triangle, the same bits on every machine. Nothing is culled by its facing but by pixel().
+// frames: watertight, ties to the lowest primitive, the same bits on every machine. Nothing is culled by its facing but by pixel().
 // Errors of all questions: no scene, numbers that are not finite or out of range, an instruction set that this machine lacks, out of
 // memory for the tree. A question that cannot be answered is never a miss.
 class SceneQuery {
@@ -90,13 +91,13 @@ class SceneQuery {
   // The scene stands as at rest, whatever the time.
   Result<std::optional<RayHit>> pixel(const Camera& camera, const Settings& frame, int x, int y) const;
 
-  // The first contact of a moving sphere with any triangle; cut-outs, screen-doors and panes are solid. Never later than the true
-  // contact: the sphere passes through nothing, however fast. A triangle that it touches at the start stops it only if it moves
+  // The first contact of a moving sphere with any triangle or sphere of the scene (a surface, too: it holds what is within);
+  // cut-outs, screen-doors and panes are solid. Never later than the true contact: the sphere passes through nothing, however fast. A triangle that it touches at the start stops it only if it moves
   // towards it, so it can get out of walls; to slide along a wall of many triangles it must keep a hair's breadth (2^-30 of the
   // radius) away. A radius of 0 asks for the closest hit of the ray from start to end.
   // Errors: start and end coincide (ask touching()).
   Result<std::optional<SweepHit>> sweep(const SphereSweep& sphere) const;
-  // All triangles at most `radius` away from a point, nearest first.
+  // All triangles and spheres at most `radius` away from a point, nearest first.
   Result<std::vector<SphereTouch>> touching(const double (&center)[3], double radius) const;
 
  private:

@@ -21,6 +21,7 @@ class Scene {
   bool valid() const { return data_ != nullptr; }
   uint64_t hash() const;  // of all that can reach a pixel, taken after loading
   size_t triangle_count() const;
+  size_t sphere_count() const;
   size_t material_count() const;
   size_t light_count() const;
   const std::vector<Camera>& cameras() const;           // never empty

@@ -1,0 +1,64 @@
+#include "ray/sweep_spheres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "frame/sphere_hit.h"
+
+namespace spanray {
+namespace {
+
+constexpr double kRounding = 0x1p-48;  // of distances, in units of what they are made from
+
+// When a sphere of radius r, moved from the origin, first touches a surface of radius `still` around c; infinity if never.
+// Contract: as first_contact() (ray/sphere_triangle.h): never later than the true contact, earlier by 2^-46 (|c| + |motion| +
+//           both radii) at most, but where it grazes: there it may stop what passes by as much. At the start it stops only
+//           motion towards the surface.
+double first_touch(const glm::dvec3& c, const glm::dvec3& motion, double r, double still) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double distance = length3(c), length = length3(motion), error = kRounding * (distance + length + r + still);
+  const glm::dvec3 from = -c;
+  const double outward = dot3(from, motion);  // the sign: away from the center
+  const auto before = [&](double t) { return std::max(t - error / length, 0.0); };
+  SphereCrossing cross;
+  if (distance >= still) {
+    if (distance - still - r <= 4 * error) return outward < 0 ? 0 : kNever;
+    if (!cross_sphere(from, motion, still + r + error, cross) || !(cross.leave > 0)) return kNever;
+    return before(cross.enter);
+  }
+  // From within.
+  if (still - distance - r <= 4 * error && outward > 0) return 0;
+  if (still - r > error && cross_sphere(from, motion, still - r - error, cross)) return before(cross.leave);
+  return before(-outward / (length * length));  // it touches, and may move on until it would come nearer again
+}
+
+// The contact when the moved sphere's center stands at `center`, all as seen from its first center.
+SphereContact contact_at(double time, const glm::dvec3& center, const glm::dvec3& c, double still) {
+  const glm::dvec3 from = center - c, outward = normalize3(from, glm::dvec3(0, 1, 0));
+  return {time, c + outward * still, length3(from) < still ? -outward : outward};
+}
+
+}  // namespace
+
+void sweep_spheres(const SphereTree& spheres, const glm::dvec3& start, const glm::dvec3& motion, double radius,
+                   SphereHit& best) {
+  for (const SphereTree::Item& item : spheres.items()) {
+    const glm::dvec3 c = center_of(item.sphere) - start;
+    const double still = static_cast<double>(item.sphere.radius), time = first_touch(c, motion, radius, still);
+    if (!(time <= 1)) continue;
+    const bool first = time < best.contact.time || (time == best.contact.time && item.primitive < best.primitive);
+    if (best.primitive != kNoPrimitive && !first) continue;
+    best.primitive = item.primitive, best.contact = contact_at(time, motion * time, c, still);
+  }
+}
+
+void touch_spheres(const SphereTree& spheres, const glm::dvec3& center, double radius, std::vector<SphereHit>& hits) {
+  for (const SphereTree::Item& item : spheres.items()) {
+    const glm::dvec3 c = center_of(item.sphere) - center;
+    const double still = static_cast<double>(item.sphere.radius), distance = std::fabs(length3(c) - still);
+    if (distance <= radius) hits.push_back({item.primitive, contact_at(0, glm::dvec3(0), c, still), distance});
+  }
+}
+
+}  // namespace spanray

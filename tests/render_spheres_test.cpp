@@ -1,0 +1,453 @@
+// Frames with spheres: one picture for both visibility engines, all instruction sets and numbers of threads; exact outlines; no
+// shadow of a sphere on its own lit side; what why, questions and the reference say of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "frame/primary_rays.h"
+#include "frame/sphere_hit.h"
+#include "math/elementary.h"
+#include "reference/reference.h"
+#include "render/trace_pixel.h"
+#include "scene/scene_builder.h"
+#include "spanray/query.h"
+#include "spanray/render.h"
+#include "support/random.h"
+#include "support/test_frame.h"
+
+namespace spanray {
+namespace {
+
+Sphere ball(const glm::dvec3& c, double r, uint32_t material = 0) {
+  Sphere s{};
+  for (int k = 0; k < 3; ++k) s.center[k] = static_cast<float>(c[k]);
+  s.radius = static_cast<float>(r), s.material = material;
+  return s;
+}
+
+void add_sun(SceneData& scene, const glm::dvec3& along) {
+  Light sun;
+  sun.kind = static_cast<int32_t>(LightKind::kDirectional);
+  const glm::dvec3 d = normalize3(along, glm::dvec3(0, -1, 0));
+  for (int k = 0; k < 3; ++k) sun.direction[k] = static_cast<float>(d[k]), sun.intensity[k] = 2;
+  scene.lights.push_back(sun);
+}
+void add_lamp(SceneData& scene, const glm::dvec3& at, float watts) {
+  Light lamp;
+  for (int k = 0; k < 3; ++k) lamp.position[k] = static_cast<float>(at[k]), lamp.intensity[k] = watts;
+  scene.lights.push_back(lamp);
+}
+
+Scene finish(SceneData&& scene) {
+  hash_scene(scene);
+  return Scene(std::make_shared<SceneData>(std::move(scene)));
+}
+
+// A floor with balls on it, in it and through each other, a mirroring one, a pane of glass before some.
+enum { kMatte, kShiny, kMirror, kGlass };
+Scene crowd() {
+  std::vector<Material> m(4);
+  m[kShiny].diffuse[1] = m[kShiny].diffuse[2] = 0.1f;
+  for (int k = 0; k < 3; ++k) m[kShiny].specular[k] = 0.5f, m[kMirror].mirror[k] = 0.7f, m[kMirror].diffuse[k] = 0.1f;
+  m[kShiny].shininess = 60;
+  m[kGlass].opacity = 0.4f, m[kGlass].transparency = static_cast<int32_t>(MaterialTransparency::kAlpha);
+  std::vector<SoupTriangle> soup = {soup_triangle({-4, 0, -4}, {-4, 0, 4}, {4, 0, 4}),
+                                    soup_triangle({-4, 0, -4}, {4, 0, 4}, {4, 0, -4}),
+                                    soup_triangle({-1.5, 0.1, 1.8}, {0, 0.1, 1.8}, {0, 1.2, 1.8}, kGlass)};
+  SceneData scene = make_test_scene(soup, m);
+  add_sphere(ball({0, 0.7, 0}, 0.7, kMirror), scene);
+  add_sphere(ball({-1.2, 0.5, 0.6}, 0.5, kShiny), scene);
+  add_sphere(ball({1.2, 0.4, 0.8}, 0.4), scene);
+  add_sphere(ball({1.0, 0.6, 0.9}, 0.25, kShiny), scene);
+  add_sphere(ball({0.2, -0.05, 1.6}, 0.2, kShiny), scene);
+  TestRandom random(3);
+  for (int i = 0; i < 40; ++i)
+    add_sphere(ball({random.uniform(-3, 3), 0.05, random.uniform(-3, 3)}, 0.05, static_cast<uint32_t>(random.below(2))), scene);
+  add_lamp(scene, {3, 5, 3}, 60), add_sun(scene, {1, -2, -1});
+  return finish(std::move(scene));
+}
+
+Camera from_to(const glm::dvec3& eye, const glm::dvec3& target, double near_plane = 0.01) {
+  Camera c;
+  for (int k = 0; k < 3; ++k) c.eye[k] = eye[k], c.target[k] = target[k];
+  c.near_plane = near_plane;
+  return c;
+}
+const Camera kCrowdView = from_to({0.5, 2.0, 5.5}, {0, 0.6, 0});
+
+Framebuffer render(const Scene& scene, const Camera& camera, const Settings& settings) {
+  FrameRequest request;
+  request.radiance = request.depth = request.primitive = request.normal = request.uv = true;
+  Framebuffer out;
+  Renderer renderer;
+  const Result<FrameStats> done = renderer.render(scene, camera, settings, out, request);
+  EXPECT_TRUE(done) << done.error().to_string();
+  return out;
+}
+
+uint64_t sphere_pixels(const Scene& scene, const Framebuffer& f) {
+  uint64_t n = 0;
+  for (const uint32_t p : f.primitive) n += p != kNoPrimitive && scene.data().is_sphere(p);
+  return n;
+}
+
+// Where spheres are seen, both engines give the same bits; triangles may differ at edges and ties, as ever.
+void expect_same_spheres(const Scene& scene, const Framebuffer& a, const Framebuffer& b, const std::string& where) {
+  size_t differ = 0, other = 0;
+  for (size_t i = 0; i < a.primitive.size(); ++i) {
+    const bool sphere = (a.primitive[i] != kNoPrimitive && scene.data().is_sphere(a.primitive[i])) ||
+                        (b.primitive[i] != kNoPrimitive && scene.data().is_sphere(b.primitive[i]));
+    const bool same = a.primitive[i] == b.primitive[i] && a.depth[i] == b.depth[i] &&
+                      std::memcmp(&a.radiance[3 * i], &b.radiance[3 * i], 12) == 0 &&
+                      std::memcmp(&a.normal[3 * i], &b.normal[3 * i], 12) == 0;
+    (sphere ? differ : other) += !same;
+  }
+  EXPECT_EQ(differ, 0u) << where;
+  EXPECT_LE(other, a.primitive.size() / 200) << where;
+}
+
+TEST(RenderSpheres, Y13_BothEnginesShowTheSame) {
+  const Scene scene = crowd();
+  for (const Shading shading : {Shading::kPhong, Shading::kGouraud, Shading::kFlat})
+    for (const int samples : {1, 8})
+      for (const Culling culling : {Culling::kNone, Culling::kBack}) {
+        Settings s = test_settings(200, 130);
+        s.shading = shading, s.samples = samples, s.culling = culling;
+        const Framebuffer raster = render(scene, kCrowdView, s);
+        s.visibility = Visibility::kRay;
+        expect_same_spheres(scene, raster, render(scene, kCrowdView, s),
+                            std::to_string(static_cast<int>(shading)) + ", " + std::to_string(samples));
+        EXPECT_GT(sphere_pixels(scene, raster), 2500u);
+      }
+}
+
+TEST(RenderSpheres, OnePictureForAllInstructionSetsAndThreads) {
+  const Scene scene = crowd();
+  for (const Visibility visibility : {Visibility::kRaster, Visibility::kRay}) {
+    Settings s = test_settings(200, 130, Isa::kScalar);
+    s.visibility = visibility, s.shading = Shading::kGouraud, s.samples = 4, s.shadow_terminator = ShadowTerminator::kLifted;
+    const Framebuffer want = render(scene, kCrowdView, s);
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 3}) {
+        s.isa = isa, s.threads = threads;
+        const Framebuffer got = render(scene, kCrowdView, s);
+        EXPECT_EQ(got.radiance, want.radiance) << isa_name(isa) << threads;
+        EXPECT_EQ(got.primitive, want.primitive) << isa_name(isa) << threads;
+        EXPECT_EQ(got.depth, want.depth) << isa_name(isa) << threads;
+      }
+  }
+}
+
+struct View {
+  Camera camera;
+  double radius;
+  glm::dvec3 center;
+};
+
+// How many pixels of a lone sphere are not those of their exact rays. There are two of it: of equal ones the first is seen.
+int wrong_pixels(const View& v, int width, int height, Culling culling, Visibility visibility) {
+  SceneData data = make_test_scene({});
+  for (int i = 0; i < 2; ++i) add_sphere(ball(v.center, v.radius), data);
+  const Scene scene = finish(std::move(data));
+  Settings s = test_settings(width, height);
+  s.culling = culling, s.visibility = visibility, s.shadows = Shadows::kNone;
+  const Framebuffer got = render(scene, v.camera, s);
+  const PrimaryRays rays = make_primary_rays(v.camera, s.width, s.height);
+  const Sphere& sphere = scene.data().spheres[0];
+  int wrong = 0;
+  for (int y = 0; y < s.height; ++y)
+    for (int x = 0; x < s.width; ++x) {
+      SphereCrossing cross;
+      const glm::dvec3 d = rays.corner + rays.step_x * (x + 0.5) + rays.step_y * (y + 0.5);
+      double t = INFINITY;
+      if (cross_sphere(rays.eye - center_of(sphere), d, double{sphere.radius}, cross)) {
+        if (cross.enter > rays.near_plane)
+          t = cross.enter;
+        else if (cross.leave > rays.near_plane && culling == Culling::kNone)
+          t = cross.leave;
+      }
+      const size_t i = static_cast<size_t>(y * s.width + x);
+      wrong += (got.primitive[i] == 0) != std::isfinite(t);
+      if (std::isfinite(t)) wrong += got.depth[i] != static_cast<float>(rays.near_plane) / static_cast<float>(t);
+    }
+  return wrong;
+}
+
+// From afar, from very near, from within, cut by the near plane, behind the eye, to the side.
+TEST(RenderSpheres, OutlinesAreExactFromEverywhere) {
+  const View views[] = {{from_to({0, 0, 5}, {0, 0, 0}), 1, {0, 0, 0}},
+                        {from_to({0, 0, 5}, {2.5, 1, 0}), 1, {0, 0, 0}},
+                        {from_to({0, 0, 1.001}, {0, 0, 0}, 1e-4), 1, {0, 0, 0}},
+                        {from_to({0, 1.02, 0}, {5, 1, 0}, 1e-3), 1, {0, 0, 0}},
+                        {from_to({0.3, 0, 0.2}, {1, 0, 0}), 1, {0, 0, 0}},
+                        {from_to({0, 0, 1.2}, {1, 0, 0.2}), 1, {0, 0, 0}},
+                        {from_to({0, 0, 1.5}, {0, 0, 0}, 0.8), 1, {0, 0, 0}},
+                        {from_to({0, 0, 1.5}, {0, 0, 0}, 3.0), 1, {0, 0, 0}},
+                        {from_to({0, 0, 1.5}, {0, 0, 5}), 1, {0, 0, 0}},
+                        {from_to({1e5, 0, 0}, {0, 0, 0}, 1), 2e4, {0, 0, 0}},
+                        {from_to({0, 2.0, 0}, {300, 0, 0}), 6.4e6, {0, -6.4e6, 0}},
+                        {from_to({-3, 0, 0.4}, {0, 0, 0.4}), 1e-3, {0, 0, 0.4}}};
+  for (const View& v : views)
+    for (const Culling culling : {Culling::kNone, Culling::kBack})
+      for (const Visibility visibility : {Visibility::kRaster, Visibility::kRay})
+        EXPECT_EQ(wrong_pixels(v, 150, 100, culling, visibility), 0)
+            << "view " << &v - views << ", culling " << static_cast<int>(culling) << ", by ray "
+            << (visibility == Visibility::kRay);
+}
+
+TEST(RenderSpheres, OutlinesAreExactFromAnywhere) {
+  TestRandom random(9);
+  for (int i = 0; i < 150; ++i) {
+    const glm::dvec3 eye = random_point(random, 4);
+    const View v = {from_to(eye, random_point(random), random.uniform(0.001, 0.5)), random.uniform(0.1, 2), {0, 0, 0}};
+    EXPECT_EQ(wrong_pixels(v, 90, 70, Culling::kNone, i % 2 == 0 ? Visibility::kRaster : Visibility::kRay), 0) << i;
+  }
+}
+
+// Lit from the eye's side, all of a lone sphere that the eye sees and the light reaches is lit: no shadow of itself, at any
+// scale and offset; and from within, the light at its center reaches all of it.
+TEST(RenderSpheres, Y7_NoShadowOnTheirOwnLitSideAndNoLeakThrough) {
+  for (const double scale : {0x1p-20, 1e-3, 1.0, 1e3, 0x1p20})
+    for (const double away : {0.0, 10.0, 1e3, 1e5, 1e6}) {
+      const glm::dvec3 at = glm::dvec3(1, -0.7, 0.3) * (away * scale);
+      SceneData data = make_test_scene({});
+      add_sphere(ball(at, scale), data);
+      data.ambient_radiance[0] = data.ambient_radiance[1] = data.ambient_radiance[2] = 0;
+      add_sun(data, {0.4, -0.3, -1});
+      const Scene outside = finish(std::move(data));
+      const glm::dvec3 center = center_of(outside.data().spheres[0]);
+      Settings s = test_settings(160, 160);
+      const Camera camera = from_to(center + glm::dvec3(0, 0, 4 * scale), center, 0.01 * scale);
+      const Framebuffer shadowed = render(outside, camera, s);
+      s.shadows = Shadows::kNone;
+      const Framebuffer plain = render(outside, camera, s);
+      EXPECT_EQ(shadowed.radiance, plain.radiance) << scale << ", " << away;
+      EXPECT_GT(sphere_pixels(outside, plain), 4000u);
+
+      // Within a shell, a lamp outside lights nothing.
+      SceneData shell = make_test_scene({});
+      shell.ambient_radiance[0] = shell.ambient_radiance[1] = shell.ambient_radiance[2] = 0;
+      add_sphere(ball(at, scale), shell);
+      add_lamp(shell, center + glm::dvec3(0, 3 * scale, 0), 100);
+      const Scene inside = finish(std::move(shell));
+      s.shadows = Shadows::kRay;
+      const Framebuffer dark = render(inside, from_to(center, center + glm::dvec3(0, scale, 0.3 * scale), 0.01 * scale), s);
+      EXPECT_EQ(sphere_pixels(inside, dark), dark.primitive.size());
+      if (away < 1e9) {
+        float most = 0;
+        for (const float r : dark.radiance) most = std::max(most, r);
+        EXPECT_EQ(most, 0) << scale << ", " << away;
+      }
+    }
+}
+
+TEST(RenderSpheres, ALampWithinLightsAllOfAShell) {
+  for (const double away : {0.0, 10.0, 1e3}) {
+    SceneData data = make_test_scene({});
+    add_sphere(ball(glm::dvec3(1, 1, 1) * away, 1), data);
+    const glm::dvec3 center = center_of(data.spheres[0]);
+    add_lamp(data, center + glm::dvec3(0.2, 0.1, 0), 1);
+    const Scene scene = finish(std::move(data));
+    Settings s = test_settings(120, 120);
+    const Camera camera = from_to(center, center + glm::dvec3(0, 0, 1));
+    const Framebuffer shadowed = render(scene, camera, s);
+    s.shadows = Shadows::kNone;
+    EXPECT_EQ(shadowed.radiance, render(scene, camera, s).radiance) << away;
+  }
+}
+
+TEST(RenderSpheres, FlatGouraudAndPhongAreOneOnSpheres) {
+  const Scene scene = crowd();
+  Settings s = test_settings(200, 130);
+  s.reflections = Reflections::kNone, s.transparency = Transparency::kNone;
+  const Framebuffer phong = render(scene, kCrowdView, s);
+  for (const Shading shading : {Shading::kFlat, Shading::kGouraud}) {
+    s.shading = shading;
+    const Framebuffer other = render(scene, kCrowdView, s);
+    for (size_t i = 0; i < phong.primitive.size(); ++i)
+      if (phong.primitive[i] != kNoPrimitive && scene.data().is_sphere(phong.primitive[i])) {
+        ASSERT_EQ(0, std::memcmp(&phong.radiance[3 * i], &other.radiance[3 * i], 12)) << i;
+      }
+  }
+}
+
+// The normal is the exact one, to rounding; spheres have no texture coordinates.
+TEST(RenderSpheres, NormalsAreThoseOfTheSphere) {
+  const Scene scene = crowd();
+  const Settings s = test_settings(200, 130);
+  const Framebuffer f = render(scene, kCrowdView, s);
+  const PrimaryRays rays = make_primary_rays(kCrowdView, s.width, s.height);
+  for (int y = 0; y < s.height; ++y)
+    for (int x = 0; x < s.width; ++x) {
+      const size_t i = static_cast<size_t>(y * s.width + x);
+      if (f.primitive[i] == kNoPrimitive || !scene.data().is_sphere(f.primitive[i])) continue;
+      const Sphere& sphere = scene.data().sphere(f.primitive[i]);
+      const glm::dvec3 d = rays.corner + rays.step_x * (x + 0.5) + rays.step_y * (y + 0.5), from = rays.eye - center_of(sphere);
+      SphereCrossing cross;
+      ASSERT_TRUE(cross_sphere(from, d, sphere.radius, cross));
+      for (int k = 0; k < 3; ++k)
+        ASSERT_NEAR(f.normal[3 * i + static_cast<size_t>(k)], (from + d * cross.enter)[k] / sphere.radius, 1e-6)
+            << x << "," << y;
+      ASSERT_TRUE(f.uv[2 * i] == 0 && f.uv[2 * i + 1] == 0);
+    }
+}
+
+TEST(RenderSpheres, WhySaysWhatThePictureShows) {
+  const Scene scene = crowd();
+  for (const Shading shading : {Shading::kPhong, Shading::kGouraud})
+    for (const int samples : {1, 4})
+      for (const Visibility visibility : {Visibility::kRaster, Visibility::kRay})
+        for (const ShadingRate rate : {ShadingRate::k1x1, ShadingRate::k2x2}) {
+          Settings s = test_settings(100, 65);
+          s.shading = shading, s.samples = samples, s.visibility = visibility, s.shading_rate = rate;
+          const Framebuffer f = render(scene, kCrowdView, s);
+          int seen = 0;
+          for (int y = 3; y < s.height; y += 7)
+            for (int x = 1; x < s.width; x += 5) {
+              const size_t i = static_cast<size_t>(y * s.width + x);
+              const Result<PixelTrace> trace = trace_pixel(scene, kCrowdView, s, x, y);
+              ASSERT_TRUE(trace);
+              ASSERT_EQ(trace.value().primitive, f.primitive[i]) << x << "," << y;
+              ASSERT_EQ(0, std::memcmp(trace.value().radiance, &f.radiance[3 * i], 12)) << x << "," << y;
+              seen += f.primitive[i] != kNoPrimitive && scene.data().is_sphere(f.primitive[i]);
+            }
+          EXPECT_GT(seen, 20);
+        }
+}
+
+TEST(RenderSpheres, QuestionsAgreeWithFrames) {
+  const Scene scene = crowd();
+  Settings s = test_settings(200, 130);
+  s.visibility = Visibility::kRay, s.transparency = Transparency::kNone;
+  const Framebuffer f = render(scene, kCrowdView, s);
+  const SceneQuery query(scene);
+  int seen = 0;
+  for (int y = 0; y < s.height; y += 3)
+    for (int x = 0; x < s.width; x += 3) {
+      const size_t i = static_cast<size_t>(y * s.width + x);
+      const auto hit = query.pixel(kCrowdView, s, x, y);
+      ASSERT_TRUE(hit);
+      ASSERT_EQ(hit.value().has_value(), f.primitive[i] != kNoPrimitive);
+      if (!hit.value()) continue;
+      ASSERT_EQ(hit.value()->name.triangle, f.primitive[i]) << x << "," << y;
+      ASSERT_NEAR(hit.value()->t + kCrowdView.near_plane, kCrowdView.near_plane / double{f.depth[i]}, 1e-5);
+      seen += scene.data().is_sphere(f.primitive[i]);
+    }
+  EXPECT_GT(seen, 200);
+}
+
+TEST(RenderSpheres, QuestionsAboutOneSphere) {
+  SceneData data = make_test_scene({});
+  add_sphere(ball({1, 2, 3}, 2), data);
+  const SceneQuery query(finish(std::move(data)));
+  Ray ray{{1, 2, 10}, {0, 0, -2}};
+  const auto hit = query.closest(ray);
+  ASSERT_TRUE(hit && hit.value());
+  EXPECT_EQ(hit.value()->t, 2.5);
+  EXPECT_EQ(hit.value()->distance, 5);
+  EXPECT_TRUE(hit.value()->front);
+  EXPECT_EQ(hit.value()->position[2], 5);
+  EXPECT_EQ(hit.value()->normal[2], 1);
+  EXPECT_EQ(hit.value()->name.material, "material");
+  EXPECT_TRUE(hit.value()->name.sphere);
+  EXPECT_EQ(hit.value()->name.object, "");
+  ray.t_min = 2.5f;  // counts
+  EXPECT_EQ(query.closest(ray).value()->t, 2.5);
+  ray.t_min = 2.6f;
+  const auto far = query.closest(ray);
+  ASSERT_TRUE(far && far.value());
+  EXPECT_EQ(far.value()->t, 4.5);
+  EXPECT_FALSE(far.value()->front);
+  EXPECT_EQ(far.value()->normal[2], -1);
+  EXPECT_TRUE(query.any(ray).value());
+  ray.t_min = 4.5f;
+  ASSERT_TRUE(query.closest(ray).value());
+  EXPECT_EQ(query.closest(ray).value()->t, 4.5);
+  EXPECT_TRUE(query.any(ray).value());
+  ray.t_min = 4.6f;
+  EXPECT_FALSE(query.any(ray).value());
+  EXPECT_FALSE(query.closest(ray).value().has_value());
+}
+
+// A moving ball against a resting one: from outside, from within, grazing, already touching.
+TEST(RenderSpheres, SweptAndTouchingSpheres) {
+  SceneData data = make_test_scene({});
+  add_sphere(ball({0, 0, 0}, 2), data);
+  const SceneQuery query(finish(std::move(data)));
+  const auto sweep = [&](const glm::dvec3& a, const glm::dvec3& b, double r) {
+    SphereSweep s;
+    for (int k = 0; k < 3; ++k) s.start[k] = a[k], s.end[k] = b[k];
+    s.radius = r;
+    const auto hit = query.sweep(s);
+    EXPECT_TRUE(hit);
+    return hit.value();
+  };
+  const auto front = sweep({0, 0, 10}, {0, 0, 0}, 1);
+  ASSERT_TRUE(front);
+  EXPECT_LE(front->distance, 7);
+  EXPECT_NEAR(front->distance, 7, 1e-12);
+  EXPECT_NEAR(front->position[2], 2, 1e-12);
+  EXPECT_EQ(front->normal[2], 1);
+  const auto within = sweep({0, 0, 0}, {0, 0, 10}, 0.5);
+  ASSERT_TRUE(within);
+  EXPECT_LE(within->distance, 1.5);
+  EXPECT_NEAR(within->distance, 1.5, 1e-12);
+  EXPECT_EQ(within->normal[2], -1);
+  EXPECT_FALSE(sweep({0, 3.0001, 10}, {0, 3.0001, -10}, 1));
+  EXPECT_TRUE(sweep({0, 2.9999, 10}, {0, 2.9999, -10}, 1));
+  EXPECT_FALSE(sweep({0, 0, 10}, {0, 0, 3.0001}, 1));
+  EXPECT_EQ(sweep({0, 0, 2.5}, {0, 0, 0}, 1)->time, 0) << "touches, and moves in";
+  EXPECT_FALSE(sweep({0, 0, 2.5}, {0, 0, 9}, 1)) << "touches, and moves out";
+  EXPECT_EQ(sweep({0, 0, 1.5}, {0, 0, 9}, 1)->time, 0) << "touches from within, and moves out";
+  EXPECT_NEAR(sweep({0, 0, 1.5}, {0, 0, -8.5}, 1)->distance, 2.5, 1e-12) << "touches from within, and moves across";
+  TestRandom random(11);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 a = random_point(random, 6), b = random_point(random, 6);
+    const double r = random.uniform(0.01, 1.5);
+    const auto hit = sweep(a, b, r);
+    const double end = hit ? hit->time : 1;
+    const auto gap = [&](double t) { return std::fabs(length3(a + (b - a) * t) - 2) - r; };
+    if (gap(0) < 0) continue;
+    for (double t = 0; t < 1; t += 1.0 / 256) ASSERT_GE(gap(t * end), -1e-9) << i;
+    if (hit) {
+      ASSERT_NEAR(gap(end), 0, 1e-9) << i;
+    }
+  }
+  const double place[3] = {0, 3, 0};
+  const auto touches = query.touching(place, 1.5);
+  ASSERT_TRUE(touches);
+  ASSERT_EQ(touches.value().size(), 1u);
+  EXPECT_EQ(touches.value()[0].distance, 1);
+  EXPECT_EQ(touches.value()[0].position[1], 2);
+  EXPECT_EQ(touches.value()[0].normal[1], 1);
+  EXPECT_TRUE(query.touching(place, 0.9).value().empty());
+}
+
+TEST(RenderSpheres, TheReferenceAgrees) {
+  const Scene scene = crowd();
+  for (const Shading shading : {Shading::kPhong, Shading::kGouraud, Shading::kFlat})
+    for (const Culling culling : {Culling::kNone, Culling::kBack})
+      for (const glm::dvec3& eye :
+           {glm::dvec3(0.5, 2, 5.5), glm::dvec3(0, 0.75, 0.1)}) {  // the second within a mirroring sphere
+        Settings s = test_settings(120, 80);
+        s.shading = shading, s.culling = culling;
+        const Camera camera = from_to(eye, {0, 0.6, -1});
+        Framebuffer truth;
+        ASSERT_TRUE(render_reference(scene, camera, s, {}, truth));
+        const Framebuffer fast = render(scene, camera, s);
+        int over = 0, ids = 0;
+        for (size_t i = 0; i < fast.primitive.size(); ++i) {
+          ids += fast.primitive[i] != truth.primitive[i];
+          int most = 0;
+          for (size_t k = 4 * i; k < 4 * i + 4; ++k) most = std::max(most, std::abs(truth.color.rgba[k] - fast.color.rgba[k]));
+          over += most > 1;
+        }
+        EXPECT_LE(ids, 10) << static_cast<int>(shading) << static_cast<int>(culling) << eye.z;
+        EXPECT_LE(over, 30) << static_cast<int>(shading) << static_cast<int>(culling) << eye.z;
+      }
+}
+
+}  // namespace
+}  // namespace spanray
