@@ -26,6 +26,7 @@ void print_json(const Job& job, const std::string& path, const std::vector<PlanL
   out["scene"] = path;
   out["scene_hash"] = hash_text(job.scene.hash());
   out["triangles"] = scene.triangles.size();
+  if (!scene.spheres.empty()) out["spheres"] = scene.spheres.size();
   out["vertices"] = scene.vertices.size();
   out["materials"] = scene.materials.size();
   out["textures"] = scene.textures.size();
@@ -48,6 +49,7 @@ void print_text(const Job& job, const std::string& path, const std::vector<PlanL
   std::printf("%-12s %s\n", "scene", path.c_str());
   std::printf("%-12s %s\n", "scene_hash", hash_text(job.scene.hash()).c_str());
   number("triangles", scene.triangles.size());
+  if (!scene.spheres.empty()) number("spheres", scene.spheres.size());
   number("vertices", scene.vertices.size());
   number("materials", scene.materials.size());
   number("textures", scene.textures.size());

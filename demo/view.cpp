@@ -93,7 +93,7 @@ Image view_picture(View view, const Scene& scene, const Camera& camera, const Fr
   const auto color = [&](size_t i, uint32_t primitive) -> Rgb {
     switch (view) {
       case View::kIds: return color_of_index(primitive);
-      case View::kMaterials: return color_of_index(material_of(data.triangles[primitive]));
+      case View::kMaterials: return color_of_index(material_of(data, primitive));
       case View::kNormals: return color_of_normal(&picture.normal[3 * i]);
       case View::kUv: return color_of_uv(&picture.uv[2 * i]);
       default: break;

@@ -69,8 +69,12 @@ void print_surface(int indent, const SurfaceTrace& s, const SceneData& scene) {
   text_row(indent, "primitive", primitive_text(s.primitive));
   const std::string name = s.material < scene.material_names.size() ? " '" + scene.material_names[s.material] + "'" : "";
   text_row(indent, "material", std::to_string(s.material) + name);
-  const Triangle& triangle = scene.triangles[s.primitive];
-  for (int j = 0; j < 3; ++j) {
+  if (scene.is_sphere(s.primitive)) {
+    row(indent, "sphere: center", scene.sphere(s.primitive).center);
+    row(indent, "radius", scene.sphere(s.primitive).radius);
+  }
+  for (int j = 0; j < 3 && !scene.is_sphere(s.primitive); ++j) {
+    const Triangle& triangle = scene.triangles[s.primitive];
     const std::string label = "vertex " + std::to_string(triangle.vertex[j]);
     row(indent, label.c_str(), scene.vertices[triangle.vertex[j]].position);
   }
