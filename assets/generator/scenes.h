@@ -18,6 +18,7 @@ SceneFiles make_spheres();
 SceneFiles make_columns();
 SceneFiles make_gauze();
 SceneFiles make_glass();
+SceneFiles make_molecule();
 SceneFiles make_orrery();
 SceneFiles make_dahlia();
 

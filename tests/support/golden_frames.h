@@ -42,6 +42,8 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("hall", "hall.toml", 0, all_on);
   add("hall_aisle", "hall.toml", 1, all_on);
   add("orrery", "orrery.toml", 0, [](Settings& s) { s.time = 3; });
+  add("molecule", "molecule.toml", 0, [](Settings& s) { s.shading = Shading::kGouraud; });
+  add("molecule_rays", "molecule.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
   add("orrery_later_rays", "orrery.toml", 1, [](Settings& s) { s.time = 11.5, s.visibility = Visibility::kRay; });
   add("dahlia", "dahlia.toml", 0, all_on);
   add("dahlia_rays", "dahlia.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
