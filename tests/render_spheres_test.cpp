@@ -1,5 +1,5 @@
 // Frames with spheres: one picture for both visibility engines, all instruction sets and numbers of threads; exact outlines; no
-// shadow of a sphere on its own lit side; what why, questions and the reference say of them.
+// shadow of a sphere on its own lit side; what the reference says of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,88 +10,10 @@
 #include "frame/sphere_hit.h"
 #include "math/elementary.h"
 #include "reference/reference.h"
-#include "render/trace_pixel.h"
-#include "scene/scene_builder.h"
-#include "spanray/query.h"
-#include "spanray/render.h"
-#include "support/random.h"
-#include "support/test_frame.h"
+#include "support/sphere_scenes.h"
 
 namespace spanray {
 namespace {
-
-Sphere ball(const glm::dvec3& c, double r, uint32_t material = 0) {
-  Sphere s{};
-  for (int k = 0; k < 3; ++k) s.center[k] = static_cast<float>(c[k]);
-  s.radius = static_cast<float>(r), s.material = material;
-  return s;
-}
-
-void add_sun(SceneData& scene, const glm::dvec3& along) {
-  Light sun;
-  sun.kind = static_cast<int32_t>(LightKind::kDirectional);
-  const glm::dvec3 d = normalize3(along, glm::dvec3(0, -1, 0));
-  for (int k = 0; k < 3; ++k) sun.direction[k] = static_cast<float>(d[k]), sun.intensity[k] = 2;
-  scene.lights.push_back(sun);
-}
-void add_lamp(SceneData& scene, const glm::dvec3& at, float watts) {
-  Light lamp;
-  for (int k = 0; k < 3; ++k) lamp.position[k] = static_cast<float>(at[k]), lamp.intensity[k] = watts;
-  scene.lights.push_back(lamp);
-}
-
-Scene finish(SceneData&& scene) {
-  hash_scene(scene);
-  return Scene(std::make_shared<SceneData>(std::move(scene)));
-}
-
-// A floor with balls on it, in it and through each other, a mirroring one, a pane of glass before some.
-enum { kMatte, kShiny, kMirror, kGlass };
-Scene crowd() {
-  std::vector<Material> m(4);
-  m[kShiny].diffuse[1] = m[kShiny].diffuse[2] = 0.1f;
-  for (int k = 0; k < 3; ++k) m[kShiny].specular[k] = 0.5f, m[kMirror].mirror[k] = 0.7f, m[kMirror].diffuse[k] = 0.1f;
-  m[kShiny].shininess = 60;
-  m[kGlass].opacity = 0.4f, m[kGlass].transparency = static_cast<int32_t>(MaterialTransparency::kAlpha);
-  std::vector<SoupTriangle> soup = {soup_triangle({-4, 0, -4}, {-4, 0, 4}, {4, 0, 4}),
-                                    soup_triangle({-4, 0, -4}, {4, 0, 4}, {4, 0, -4}),
-                                    soup_triangle({-1.5, 0.1, 1.8}, {0, 0.1, 1.8}, {0, 1.2, 1.8}, kGlass)};
-  SceneData scene = make_test_scene(soup, m);
-  add_sphere(ball({0, 0.7, 0}, 0.7, kMirror), scene);
-  add_sphere(ball({-1.2, 0.5, 0.6}, 0.5, kShiny), scene);
-  add_sphere(ball({1.2, 0.4, 0.8}, 0.4), scene);
-  add_sphere(ball({1.0, 0.6, 0.9}, 0.25, kShiny), scene);
-  add_sphere(ball({0.2, -0.05, 1.6}, 0.2, kShiny), scene);
-  TestRandom random(3);
-  for (int i = 0; i < 40; ++i)
-    add_sphere(ball({random.uniform(-3, 3), 0.05, random.uniform(-3, 3)}, 0.05, static_cast<uint32_t>(random.below(2))), scene);
-  add_lamp(scene, {3, 5, 3}, 60), add_sun(scene, {1, -2, -1});
-  return finish(std::move(scene));
-}
-
-Camera from_to(const glm::dvec3& eye, const glm::dvec3& target, double near_plane = 0.01) {
-  Camera c;
-  for (int k = 0; k < 3; ++k) c.eye[k] = eye[k], c.target[k] = target[k];
-  c.near_plane = near_plane;
-  return c;
-}
-const Camera kCrowdView = from_to({0.5, 2.0, 5.5}, {0, 0.6, 0});
-
-Framebuffer render(const Scene& scene, const Camera& camera, const Settings& settings) {
-  FrameRequest request;
-  request.radiance = request.depth = request.primitive = request.normal = request.uv = true;
-  Framebuffer out;
-  Renderer renderer;
-  const Result<FrameStats> done = renderer.render(scene, camera, settings, out, request);
-  EXPECT_TRUE(done) << done.error().to_string();
-  return out;
-}
-
-uint64_t sphere_pixels(const Scene& scene, const Framebuffer& f) {
-  uint64_t n = 0;
-  for (const uint32_t p : f.primitive) n += p != kNoPrimitive && scene.data().is_sphere(p);
-  return n;
-}
 
 // Where spheres are seen, both engines give the same bits; triangles may differ at edges and ties, as ever.
 void expect_same_spheres(const Scene& scene, const Framebuffer& a, const Framebuffer& b, const std::string& where) {
@@ -292,137 +214,6 @@ TEST(RenderSpheres, NormalsAreThoseOfTheSphere) {
             << x << "," << y;
       ASSERT_TRUE(f.uv[2 * i] == 0 && f.uv[2 * i + 1] == 0);
     }
-}
-
-TEST(RenderSpheres, WhySaysWhatThePictureShows) {
-  const Scene scene = crowd();
-  for (const Shading shading : {Shading::kPhong, Shading::kGouraud})
-    for (const int samples : {1, 4})
-      for (const Visibility visibility : {Visibility::kRaster, Visibility::kRay})
-        for (const ShadingRate rate : {ShadingRate::k1x1, ShadingRate::k2x2}) {
-          Settings s = test_settings(100, 65);
-          s.shading = shading, s.samples = samples, s.visibility = visibility, s.shading_rate = rate;
-          const Framebuffer f = render(scene, kCrowdView, s);
-          int seen = 0;
-          for (int y = 3; y < s.height; y += 7)
-            for (int x = 1; x < s.width; x += 5) {
-              const size_t i = static_cast<size_t>(y * s.width + x);
-              const Result<PixelTrace> trace = trace_pixel(scene, kCrowdView, s, x, y);
-              ASSERT_TRUE(trace);
-              ASSERT_EQ(trace.value().primitive, f.primitive[i]) << x << "," << y;
-              ASSERT_EQ(0, std::memcmp(trace.value().radiance, &f.radiance[3 * i], 12)) << x << "," << y;
-              seen += f.primitive[i] != kNoPrimitive && scene.data().is_sphere(f.primitive[i]);
-            }
-          EXPECT_GT(seen, 20);
-        }
-}
-
-TEST(RenderSpheres, QuestionsAgreeWithFrames) {
-  const Scene scene = crowd();
-  Settings s = test_settings(200, 130);
-  s.visibility = Visibility::kRay, s.transparency = Transparency::kNone;
-  const Framebuffer f = render(scene, kCrowdView, s);
-  const SceneQuery query(scene);
-  int seen = 0;
-  for (int y = 0; y < s.height; y += 3)
-    for (int x = 0; x < s.width; x += 3) {
-      const size_t i = static_cast<size_t>(y * s.width + x);
-      const auto hit = query.pixel(kCrowdView, s, x, y);
-      ASSERT_TRUE(hit);
-      ASSERT_EQ(hit.value().has_value(), f.primitive[i] != kNoPrimitive);
-      if (!hit.value()) continue;
-      ASSERT_EQ(hit.value()->name.triangle, f.primitive[i]) << x << "," << y;
-      ASSERT_NEAR(hit.value()->t + kCrowdView.near_plane, kCrowdView.near_plane / double{f.depth[i]}, 1e-5);
-      seen += scene.data().is_sphere(f.primitive[i]);
-    }
-  EXPECT_GT(seen, 200);
-}
-
-TEST(RenderSpheres, QuestionsAboutOneSphere) {
-  SceneData data = make_test_scene({});
-  add_sphere(ball({1, 2, 3}, 2), data);
-  const SceneQuery query(finish(std::move(data)));
-  Ray ray{{1, 2, 10}, {0, 0, -2}};
-  const auto hit = query.closest(ray);
-  ASSERT_TRUE(hit && hit.value());
-  EXPECT_EQ(hit.value()->t, 2.5);
-  EXPECT_EQ(hit.value()->distance, 5);
-  EXPECT_TRUE(hit.value()->front);
-  EXPECT_EQ(hit.value()->position[2], 5);
-  EXPECT_EQ(hit.value()->normal[2], 1);
-  EXPECT_EQ(hit.value()->name.material, "material");
-  EXPECT_TRUE(hit.value()->name.sphere);
-  EXPECT_EQ(hit.value()->name.object, "");
-  ray.t_min = 2.5f;  // counts
-  EXPECT_EQ(query.closest(ray).value()->t, 2.5);
-  ray.t_min = 2.6f;
-  const auto far = query.closest(ray);
-  ASSERT_TRUE(far && far.value());
-  EXPECT_EQ(far.value()->t, 4.5);
-  EXPECT_FALSE(far.value()->front);
-  EXPECT_EQ(far.value()->normal[2], -1);
-  EXPECT_TRUE(query.any(ray).value());
-  ray.t_min = 4.5f;
-  ASSERT_TRUE(query.closest(ray).value());
-  EXPECT_EQ(query.closest(ray).value()->t, 4.5);
-  EXPECT_TRUE(query.any(ray).value());
-  ray.t_min = 4.6f;
-  EXPECT_FALSE(query.any(ray).value());
-  EXPECT_FALSE(query.closest(ray).value().has_value());
-}
-
-// A moving ball against a resting one: from outside, from within, grazing, already touching.
-TEST(RenderSpheres, SweptAndTouchingSpheres) {
-  SceneData data = make_test_scene({});
-  add_sphere(ball({0, 0, 0}, 2), data);
-  const SceneQuery query(finish(std::move(data)));
-  const auto sweep = [&](const glm::dvec3& a, const glm::dvec3& b, double r) {
-    SphereSweep s;
-    for (int k = 0; k < 3; ++k) s.start[k] = a[k], s.end[k] = b[k];
-    s.radius = r;
-    const auto hit = query.sweep(s);
-    EXPECT_TRUE(hit);
-    return hit.value();
-  };
-  const auto front = sweep({0, 0, 10}, {0, 0, 0}, 1);
-  ASSERT_TRUE(front);
-  EXPECT_LE(front->distance, 7);
-  EXPECT_NEAR(front->distance, 7, 1e-12);
-  EXPECT_NEAR(front->position[2], 2, 1e-12);
-  EXPECT_EQ(front->normal[2], 1);
-  const auto within = sweep({0, 0, 0}, {0, 0, 10}, 0.5);
-  ASSERT_TRUE(within);
-  EXPECT_LE(within->distance, 1.5);
-  EXPECT_NEAR(within->distance, 1.5, 1e-12);
-  EXPECT_EQ(within->normal[2], -1);
-  EXPECT_FALSE(sweep({0, 3.0001, 10}, {0, 3.0001, -10}, 1));
-  EXPECT_TRUE(sweep({0, 2.9999, 10}, {0, 2.9999, -10}, 1));
-  EXPECT_FALSE(sweep({0, 0, 10}, {0, 0, 3.0001}, 1));
-  EXPECT_EQ(sweep({0, 0, 2.5}, {0, 0, 0}, 1)->time, 0) << "touches, and moves in";
-  EXPECT_FALSE(sweep({0, 0, 2.5}, {0, 0, 9}, 1)) << "touches, and moves out";
-  EXPECT_EQ(sweep({0, 0, 1.5}, {0, 0, 9}, 1)->time, 0) << "touches from within, and moves out";
-  EXPECT_NEAR(sweep({0, 0, 1.5}, {0, 0, -8.5}, 1)->distance, 2.5, 1e-12) << "touches from within, and moves across";
-  TestRandom random(11);
-  for (int i = 0; i < 2000; ++i) {
-    const glm::dvec3 a = random_point(random, 6), b = random_point(random, 6);
-    const double r = random.uniform(0.01, 1.5);
-    const auto hit = sweep(a, b, r);
-    const double end = hit ? hit->time : 1;
-    const auto gap = [&](double t) { return std::fabs(length3(a + (b - a) * t) - 2) - r; };
-    if (gap(0) < 0) continue;
-    for (double t = 0; t < 1; t += 1.0 / 256) ASSERT_GE(gap(t * end), -1e-9) << i;
-    if (hit) {
-      ASSERT_NEAR(gap(end), 0, 1e-9) << i;
-    }
-  }
-  const double place[3] = {0, 3, 0};
-  const auto touches = query.touching(place, 1.5);
-  ASSERT_TRUE(touches);
-  ASSERT_EQ(touches.value().size(), 1u);
-  EXPECT_EQ(touches.value()[0].distance, 1);
-  EXPECT_EQ(touches.value()[0].position[1], 2);
-  EXPECT_EQ(touches.value()[0].normal[1], 1);
-  EXPECT_TRUE(query.touching(place, 0.9).value().empty());
 }
 
 TEST(RenderSpheres, TheReferenceAgrees) {
