@@ -10,6 +10,7 @@
 #include "frame/sphere_hit.h"
 #include "math/elementary.h"
 #include "reference/reference.h"
+#include "support/frame_count.h"
 #include "support/sphere_scenes.h"
 
 namespace spanray {
@@ -185,6 +186,7 @@ TEST(RenderSpheres, FlatGouraudAndPhongAreOneOnSpheres) {
   Settings s = test_settings(200, 130);
   s.reflections = Reflections::kNone, s.transparency = Transparency::kNone;
   const Framebuffer phong = render(scene, kCrowdView, s);
+  ASSERT_GT(sphere_pixels(scene, phong), 1000u);
   for (const Shading shading : {Shading::kFlat, Shading::kGouraud}) {
     s.shading = shading;
     const Framebuffer other = render(scene, kCrowdView, s);
@@ -195,11 +197,40 @@ TEST(RenderSpheres, FlatGouraudAndPhongAreOneOnSpheres) {
   }
 }
 
+// What is seen of them takes no corners of triangles, though batches have both.
+TEST(RenderSpheres, NoTriangleIsLitForThem) {
+  for (const bool with_triangle : {false, true}) {
+    std::vector<SoupTriangle> soup;
+    if (with_triangle) soup.push_back(soup_triangle({-9, 0, -20}, {9, 0, -20}, {0, 9, -20}));
+    SceneData data = make_test_scene(soup);
+    add_sphere(ball({0, 0, 0}, 1), data);
+    add_lamp(data, {3, 5, 3}, 60);
+    const Scene scene = finish(std::move(data));
+    Settings s = test_settings(96, 64);
+    s.shading = Shading::kGouraud;
+    Framebuffer out;
+    FrameRequest request;
+    request.primitive = true;
+    Renderer renderer;
+    const auto lit_of = [&](const glm::dvec3& eye) {
+      const Result<FrameStats> done = renderer.render(scene, from_to(eye, {0, 0, 0}), s, out, request);
+      EXPECT_TRUE(done);
+      EXPECT_GT(sphere_pixels(scene, out), 500u);
+      return count(done.value(), "vertices_lit");
+    };
+    EXPECT_EQ(lit_of({0, 0, -4}), 0u);  // away from the triangle
+    if (with_triangle) {
+      EXPECT_GT(lit_of({0, 0, 4}), 0u);
+    }
+  }
+}
+
 // The normal is the exact one, to rounding; spheres have no texture coordinates.
 TEST(RenderSpheres, NormalsAreThoseOfTheSphere) {
   const Scene scene = crowd();
   const Settings s = test_settings(200, 130);
   const Framebuffer f = render(scene, kCrowdView, s);
+  ASSERT_GT(sphere_pixels(scene, f), 1000u);
   const PrimaryRays rays = make_primary_rays(kCrowdView, s.width, s.height);
   for (int y = 0; y < s.height; ++y)
     for (int x = 0; x < s.width; ++x) {

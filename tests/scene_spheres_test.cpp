@@ -52,6 +52,16 @@ TEST_F(SceneSpheres, AreReadInOrderAndGrowTheBounds) {
   EXPECT_EQ(material_of(scene, 2), scene.spheres[1].material);
 }
 
+// The ground as a large ball: the near plane that fits the bounds would cut off what stands before the camera.
+TEST_F(SceneSpheres, AGroundBallThatMovesTheNearPlaneBeyondTheTargetIsNoted) {
+  const std::string ground = std::string(kGood) + "[[sphere]]\ncenter = [0, -1000, 0]\nradius = 1000\nmaterial = \"red\"\n";
+  const std::string camera = "[[camera]]\nname = \"front\"\neye = [1, 2, -1]\ntarget = [1, 2, -3]\n";
+  const auto noted = [&](const std::string& text) { return must_load(write(text)).count({"front", "before the near plane"}); };
+  EXPECT_EQ(noted(ground + camera), 1);
+  EXPECT_EQ(noted(ground + camera + "near = 0.01\n"), 0);
+  EXPECT_EQ(noted(kGood + camera), 0);
+}
+
 TEST_F(SceneSpheres, AnObjWithoutFacesIsNoWarning) {
   const Loaded with = must_load(write(kGood, "none.obj")), without = must_load(write("", "none.obj"));
   EXPECT_EQ(with.count({"no triangles"}), 0) << with.all_messages();

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/fp_env.h"
+#include "core/number_text.h"
 #include "scene/default_view.h"
 #include "scene/obj_loader.h"
 #include "scene/path_finder.h"
@@ -48,14 +49,26 @@ void complete(SceneData& scene, bool lights_given, const std::string& path, cons
                 "surfaces a radiance of 0.9");
 }
 
-void take_scene_file(const SceneFile& file, SceneData& scene) {
+// A near plane that fits large bounds may cut off what a camera looks at.
+void say_if_cut_off(const Camera& camera, const std::string& name, const std::string& path, Messages& messages) {
+  double square = 0;
+  for (int k = 0; k < 3; ++k) square += (camera.target[k] - camera.eye[k]) * (camera.target[k] - camera.eye[k]);
+  if (camera.near_plane * camera.near_plane < square) return;
+  messages.note(path + ": " + name + ": what it looks at lies before the near plane, which is at " + number_text(camera.near_plane) +
+                " (2e-3 of the radius of the scene's bounds) and can be set by `near`");
+}
+
+void take_scene_file(const SceneFile& file, const std::string& path, SceneData& scene, Messages& messages) {
   for (int k = 0; k < 3; ++k) scene.background[k] = file.background[k], scene.ambient_radiance[k] = file.ambient[k];
   if (file.lights) scene.lights = *file.lights;
   scene.settings = file.settings;
   const double near_plane = fitted_near_plane(scene);
   for (const NamedCamera& c : file.cameras) {
     scene.cameras.push_back(c.camera);
-    if (!c.near_given) scene.cameras.back().near_plane = near_plane;
+    if (!c.near_given) {
+      scene.cameras.back().near_plane = near_plane;
+      say_if_cut_off(scene.cameras.back(), quoted(c.name), path, messages);
+    }
     scene.camera_names.push_back(c.name);
   }
   scene.camera_path = file.path;
@@ -82,7 +95,7 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
       !loaded) return loaded;
   if (Result<void> added = add_spheres(file.value().spheres, path, scene); !added) return added;
   say_if_empty(obj.value(), scene, messages);
-  take_scene_file(file.value(), scene);
+  take_scene_file(file.value(), path, scene, messages);
   if (Result<void> applied = apply_overrides(file.value(), path, scene, messages); !applied) return applied;
   if (Result<void> checked = check_sphere_materials(file.value().spheres, path, scene); !checked) return checked;
   complete(scene, file.value().lights.has_value(), path, options, messages);

@@ -30,7 +30,7 @@ SceneSphere read_sphere(const toml::table& table, TomlErrors& errors) {
 // What of a material spheres do not have; null: all is well.
 const char* unfit(const Material& m) {
   if (m.map_opacity >= 0) return "has a map_d, and spheres have no texture coordinates";
-  if (m.opacity < 1) return "is translucent (d below 1), and spheres are opaque";
+  if (m.opacity < 1) return "is translucent (d below 1, whatever its transparency), and spheres are opaque";
   for (const int32_t map :
        {m.map_ambient, m.map_diffuse, m.map_specular, m.map_shininess, m.map_emission, m.map_bump, m.map_normal})
     if (map >= 0) return "has a texture, and spheres have no texture coordinates";

@@ -1,8 +1,10 @@
 // shade/light.h: the kernel of the frame's instruction set.
 #include "shade/light.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "shade/light_kernel.h"
-#include "shade/sphere_surface.h"
 
 namespace spanray {
 
@@ -24,17 +26,17 @@ void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatc
   const int isa = isa_index(frame.isa);
   const bool by_triangle = surfaces.lights > 0 || frame.settings.shading == Shading::kGouraud;
   const ShadeLightFn shade = (by_triangle ? kShadeTriangleLight : kShadeLight)[isa];
-  if (frame.settings.shading == Shading::kPhong || frame.scene->spheres.empty()) return shade(frame, surfaces, hits, light, lit, radiance);
-  // Triangles as the settings say, spheres by the normal at each pixel.
-  {
-    const OnlyKind triangles(*frame.scene, surfaces, false);
-    shade(frame, surfaces, hits, light, lit, radiance);
-  }
-  const OnlyKind spheres(*frame.scene, surfaces, true);
-  if (spheres.none()) return;
+  if (frame.settings.shading == Shading::kPhong || surfaces.spheres.empty()) return shade(frame, surfaces, hits, light, lit, radiance);
+  // Triangles as the settings say, spheres by the normal at each pixel: the batch holds these, then those.
+  const std::vector<uint32_t> valid(surfaces.valid, surfaces.valid + surfaces.count);
+  for (const int i : surfaces.spheres) surfaces.valid[i] = 0;
+  shade(frame, surfaces, hits, light, lit, radiance);
+  std::fill_n(surfaces.valid, surfaces.count, 0u);
+  for (const int i : surfaces.spheres) surfaces.valid[i] = valid[static_cast<size_t>(i)];
   Frame phong = frame;
   phong.settings.shading = Shading::kPhong;
   kShadeLight[isa](phong, surfaces, hits, light, lit, radiance);
+  std::copy(valid.begin(), valid.end(), surfaces.valid);
 }
 
 void make_bounce_rays(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, RayBatch& rays,

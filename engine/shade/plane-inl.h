@@ -259,7 +259,7 @@ HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
   for (const uint32_t v : scene.triangles[primitive].vertex) __builtin_prefetch(&scene.vertices[v]);
 }
 
-// The planes of up to kPlaneHits hits from `at` on; misses stand for primitive 0.
+// The planes of up to kPlaneHits hits from `at` on; misses have none.
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   const SceneData& scene = *frame.scene;
@@ -269,11 +269,12 @@ void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& 
   int fetched = 0;
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
-    const I32 primitive = select(listed == i32(kNoPrimitive), i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
+    const Mask missed = listed == i32(kNoPrimitive);
+    const I32 primitive = select(missed, i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
     uint32_t primitives[kLanes], cells[kLanes];
     primitive.store(primitives), cell.store(cells);
-    I32 plane = i32(0);  // lanes past the last hit have the first
-    uint32_t left = to_bits(first_lanes(count - i));
+    I32 plane = i32(0);  // misses, and lanes past the last hit, point to the first
+    uint32_t left = to_bits(and_not(missed, first_lanes(count - i)));
     for (int found = 0; left != 0 && found < kTogether; ++found) {
       const int k = __builtin_ctz(left);
       const Mask same = (primitive == i32(primitives[k])) & (cell == i32(cells[k]));
@@ -288,6 +289,7 @@ void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& 
     for (; fetched < finder.count() - kLag; ++fetched) prefetch_vertices(scene, block.primitive[fetched]);
   }
   block.planes = finder.count();
+  if (block.planes == 0) return;
   for (int i = 0; i < kPlaneLine; ++i)  // lanes past the last plane follow it
     block.primitive[block.planes + i] = block.primitive[block.planes - 1], block.cell[block.planes + i] = block.cell[block.planes - 1];
   for (; fetched < block.planes; ++fetched) prefetch_vertices(scene, block.primitive[fetched]);

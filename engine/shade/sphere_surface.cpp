@@ -140,21 +140,7 @@ void resolve_with_spheres(const Frame& frame, const HitBatch& hits, SurfaceBatch
     if (is_sphere(scene, p)) p = kNoPrimitive;
   kernel(frame, triangles, out);  // misses are cleared
   for (int i = 0; i < hits.count; ++i)
-    if (is_sphere(scene, hits.primitive[static_cast<size_t>(i)])) resolve_sphere(frame, hits, i, out);
-}
-
-OnlyKind::OnlyKind(const SceneData& scene, const SurfaceBatch& surfaces, bool spheres) : surfaces_(surfaces) {
-  for (int i = 0; i < surfaces.count; ++i) {
-    if (surfaces.valid[i] == 0) continue;
-    if (scene.is_sphere(surfaces.primitive[i]) == spheres)
-      ++kept_;
-    else
-      surfaces.valid[i] = 0, left_out_.push_back(i);
-  }
-}
-
-OnlyKind::~OnlyKind() {
-  for (const int i : left_out_) surfaces_.valid[i] = 1;
+    if (is_sphere(scene, hits.primitive[static_cast<size_t>(i)])) resolve_sphere(frame, hits, i, out), out.spheres.push_back(i);
 }
 
 }  // namespace spanray
