@@ -190,17 +190,17 @@ std::vector<Candidate> find_candidates(const SceneData& scene, const uint32_t* m
   return all;
 }
 
-// Drops what is not usable, and all if it is not worth it.
-void choose(std::vector<Candidate>& all, size_t parts, InstanceUse use) {
-  std::erase_if(all, [](const Candidate& c) { return !c.usable; });
-  if (use == InstanceUse::kAlways) return;
+// Whether one tree a part, instead of one a place, spares enough: all triangles but those of the first place of each part. part(place) and
+// triangles(place) of `places`.
+template <class Place, class Part, class Triangles>
+bool worth_it(const std::vector<Place>& places, size_t parts, const Part& part, const Triangles& triangles) {
   std::vector<bool> seen(parts, false);
   uint64_t saved = 0;
-  for (const Candidate& c : all) {
-    if (seen[c.placed.part]) saved += c.triangles;
-    seen[c.placed.part] = true;
+  for (const Place& p : places) {
+    if (seen[part(p)]) saved += triangles(p);
+    seen[part(p)] = true;
   }
-  if (saved < kLeastSaved) all.clear();
+  return saved >= kLeastSaved;
 }
 
 }  // namespace
@@ -214,9 +214,17 @@ size_t InstanceTrees::memory_bytes() const {
 std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
                                                      Parallel& parallel, TreeQuality quality, InstanceUse use) {
   if (scene.instances.empty() || use == InstanceUse::kNever) return nullptr;
+  const size_t parts = scene.instanced_parts.size();
+  // Before anything is looked at closely: were all of them usable, would it be worth it?
+  if (use == InstanceUse::kAuto &&
+      !worth_it(scene.instances, parts, [](const Instance& i) { return i.part; }, [](const Instance& i) { return i.count; }))
+    return nullptr;
   std::vector<Candidate> places = find_candidates(scene, material_flags, mask, value, parallel);
-  choose(places, scene.instanced_parts.size(), use);
+  std::erase_if(places, [](const Candidate& c) { return !c.usable; });
   if (places.empty()) return nullptr;
+  if (use == InstanceUse::kAuto &&
+      !worth_it(places, parts, [](const Candidate& c) { return c.placed.part; }, [](const Candidate& c) { return c.triangles; }))
+    return nullptr;
 
   const auto trees = std::make_shared<InstanceTrees>();
   std::vector<double> stretch(scene.instanced_parts.size(), 0);

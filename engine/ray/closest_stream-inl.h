@@ -100,7 +100,7 @@ class ClosestStream {
       for (int k = 0; k < 3; ++k)
         near_side[k] = F8::load(node.bounds[any.near_row[k]] + s), far_side[k] = F8::load(node.bounds[any.far_row[k]] + s);
       for_each_ray(rays, [&](int r) HWY_ATTR {
-        const ChildLanes box = box_between(near_side, far_side, rays_.ray[r].exact, rays_.limit[r]);
+        const ChildLanes box = box_between(near_side, far_side, rays_.ray[r], rays_.limit[r]);
         meets[r] = static_cast<uint8_t>(meets[r] | to_bits(box.meets) << s);
         least = select(box.meets, cull_min(least, box.near), least);
       });

@@ -23,19 +23,13 @@ namespace HWY_NAMESPACE {
 // A ray in the space of a part; t is that of the world. Near planes are met from the one origin, far planes from the other: boxes seem
 // larger by the slack.
 struct PartRay {
-  float near_origin[3], far_origin[3], inv_near[3], inv_far[3];
+  float from_near[3], from_far[3], inverse_near[3], inverse_far[3];
   int near_row[3], far_row[3];  // of BvhNode::bounds
+  HWY_INLINE float near_origin(int k) const { return from_near[k]; }
+  HWY_INLINE float far_origin(int k) const { return from_far[k]; }
+  HWY_INLINE float inv_near(int k) const { return inverse_near[k]; }
+  HWY_INLINE float inv_far(int k) const { return inverse_far[k]; }
 };
-
-// As the one of ray/traverse-inl.h, for Stack.
-HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const PartRay& ray, float limit) {
-  F8 near = f8(0.0f), far = f8(limit);
-  for (int k = 0; k < 3; ++k) {
-    near = cull_max((F8::load(node.bounds[ray.near_row[k]] + first) - f8(ray.near_origin[k])) * f8(ray.inv_near[k]), near);
-    far = cull_min((F8::load(node.bounds[ray.far_row[k]] + first) - f8(ray.far_origin[k])) * f8(ray.inv_far[k]), far);
-  }
-  return {near <= far, near};
-}
 
 // The ray in world space as doubles: direction as LaneRay has it, within rounding.
 struct WorldRay {
@@ -57,16 +51,16 @@ HWY_INLINE void enter_part(const WorldRay& world, const PlacedPart& place, PartR
     const double slack = place.slack[k] + place.slack_of_origin[k] * world.reach;
     const bool negative = std::signbit(d);
     const float low = float_below(origin - slack), high = float_above(origin + slack);
-    ray.near_origin[k] = negative ? low : high, ray.far_origin[k] = negative ? high : low;
+    ray.from_near[k] = negative ? low : high, ray.from_far[k] = negative ? high : low;
     ray.near_row[k] = negative ? k + 3 : k, ray.far_row[k] = negative ? k : k + 3;
     if (d == 0) {
-      ray.inv_near[k] = ray.inv_far[k] = negative ? -inf : inf;
+      ray.inverse_near[k] = ray.inverse_far[k] = negative ? -inf : inf;
     } else if (std::fabs(d) < 0x1p-126) {
-      ray.inv_near[k] = ray.inv_far[k] = std::numeric_limits<float>::quiet_NaN();  // the axis never culls
+      ray.inverse_near[k] = ray.inverse_far[k] = std::numeric_limits<float>::quiet_NaN();  // the axis never culls
     } else {
       const double inverse = 1 / d;
-      ray.inv_near[k] = static_cast<float>(inverse * (1 - static_cast<double>(kSlabWidening)));
-      ray.inv_far[k] = static_cast<float>(inverse * (1 + static_cast<double>(kSlabWidening)));
+      ray.inverse_near[k] = static_cast<float>(inverse * (1 - static_cast<double>(kSlabWidening)));
+      ray.inverse_far[k] = static_cast<float>(inverse * (1 + static_cast<double>(kSlabWidening)));
     }
   }
 }
@@ -92,42 +86,21 @@ template <class Visitor> HWY_INLINE bool visit_triangle(const SceneData& scene, 
   else return visitor.takes(triangle.view()) && visitor.hit(t, primitive);
 }
 
-// As traverse() of ray/traverse-inl.h: visit(number) is called for the leaves that the ray may meet, near first, but for kAny in no order; it
-// returns true to end, and so does this.
-template <class Visitor, class Ray, class Visit>
-HWY_INLINE bool traverse_single(const SingleTree& tree, const Ray& ray, const Visitor& visitor, const Visit& visit) {
-  Stack stack;
-  uint32_t child = 0;
-  for (;;) {
-    if ((child & kLeafBit) == 0) {
-      child = Visitor::kAny ? stack.push_any(tree[child], ray, visitor.limit) : stack.push_sorted(tree[child], ray, visitor.limit);
-      if (child != kNothing) continue;
-    } else if (visit(child & ~kLeafBit)) {
-      return true;
-    }
-    do {
-      if (stack.top == 0) return false;
-      --stack.top;
-    } while (!Visitor::kAny && stack.near[stack.top] > visitor.limit);
-    child = stack.child[stack.top];
-  }
-}
-
 // Visits what the ray may hit of one place; true if the visitor wants to end.
 template <class Visitor>
 HWY_INLINE bool traverse_place(const SceneData& scene, const InstanceTrees& trees, uint32_t index, const WorldRay& world, const LaneRay& ray, Visitor& visitor) {
   const PlacedPart& place = trees.placed[index];
   PartRay in_part;
   enter_part(world, place, in_part);
-  return traverse_single(trees.parts[place.part], in_part, visitor,
-                         [&](uint32_t triangle) HWY_ATTR { return visit_triangle(scene, place.first + triangle, ray, visitor); });
+  return descend_to_leaves(trees.parts[place.part], 0, in_part, visitor,
+                 [&](uint32_t leaf) HWY_ATTR { return visit_triangle(scene, place.first + (leaf & ~kLeafBit), ray, visitor); });
 }
 
 // Of all places, at no more than visitor.limit.
 template <class Visitor>
 HWY_INLINE void traverse_instances(const SceneData& scene, const InstanceTrees& trees, const LaneRay& ray, Visitor& visitor) {
   const WorldRay world(ray);
-  traverse_single(trees.top, ray, visitor, [&](uint32_t place) HWY_ATTR { return traverse_place(scene, trees, place, world, ray, visitor); });
+  descend_to_leaves(trees.top, 0, ray, visitor, [&](uint32_t leaf) HWY_ATTR { return traverse_place(scene, trees, leaf & ~kLeafBit, world, ray, visitor); });
 }
 
 // Of the rays of a packet that has found its closest hits elsewhere: what is nearer among instances.
@@ -149,6 +122,7 @@ HWY_NOINLINE void closest_of_instances(ClosestPacket& packet, const InstanceTree
 HWY_NOINLINE void any_of_instances(AnyPacket& packet, const InstanceTrees& trees, uint32_t* out) {
   for (int first = 0; first < packet.batch.rays.count; first += kLanes) {
     const uint32_t hit = out[first / 32] >> (first % 32) & ((1u << kLanes) - 1);
+    if (hit == (1u << kLanes) - 1) continue;
     packet.start(first);
     for (uint32_t rest = packet.p.valid & ~hit; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);

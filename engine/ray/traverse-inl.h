@@ -28,26 +28,30 @@ struct LaneRay {
   float shear_x, shear_y;
   float edge_slope, edge_offset;  // an edge function in lanes is off by at most slope * (sum of |x| + |y|) + offset
   int near_row[3], far_row[3];    // rows of BvhNode::bounds
+  HWY_INLINE float near_origin(int k) const { return exact.origin[k]; }
+  HWY_INLINE float far_origin(int k) const { return exact.origin[k]; }
+  HWY_INLINE float inv_near(int k) const { return exact.inv_near[k]; }
+  HWY_INLINE float inv_far(int k) const { return exact.inv_far[k]; }
 };
 
 // Which of kLanes8 boxes a ray meets in [0, limit], and where it enters them: the arithmetic of slab(), on the sides that it enters and leaves by.
+// ray: origins to meet these from, and reciprocals: near_origin, far_origin, inv_near, inv_far.
 struct ChildLanes { Mask8 meets; F8 near; };
-HWY_INLINE ChildLanes box_between(const F8 (&near_side)[3], const F8 (&far_side)[3], const TraceRay& ray, float limit) {
+template <class Ray> HWY_INLINE ChildLanes box_between(const F8 (&near_side)[3], const F8 (&far_side)[3], const Ray& ray, float limit) {
   F8 near = f8(0.0f), far = f8(limit);
   for (int k = 0; k < 3; ++k) {
-    const F8 o = f8(ray.origin[k]);
-    near = cull_max((near_side[k] - o) * f8(ray.inv_near[k]), near);
-    far = cull_min((far_side[k] - o) * f8(ray.inv_far[k]), far);
+    near = cull_max((near_side[k] - f8(ray.near_origin(k))) * f8(ray.inv_near(k)), near);
+    far = cull_min((far_side[k] - f8(ray.far_origin(k))) * f8(ray.inv_far(k)), far);
   }
   return {near <= far, near};
 }
 
 // Of the children of a node, those from `first` on.
-HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const LaneRay& ray, float limit) {
+template <class Ray> HWY_INLINE ChildLanes box_children(const BvhNode& node, int first, const Ray& ray, float limit) {
   F8 near_side[3], far_side[3];
   for (int k = 0; k < 3; ++k)
     near_side[k] = F8::load(node.bounds[ray.near_row[k]] + first), far_side[k] = F8::load(node.bounds[ray.far_row[k]] + first);
-  return box_between(near_side, far_side, ray.exact, limit);
+  return box_between(near_side, far_side, ray, limit);
 }
 
 // Where a ray surely passes inside a triangle whose vertices are all in front of it, bounds on t in float order most hits: t is the mean of
@@ -199,28 +203,34 @@ HWY_INLINE bool visit_leaf(const Bvh::Data& data, uint32_t child, const LaneRay&
   return visit_candidates(block, leaf_block(child) * kBvhWidth, found, t_of, ray, visitor);
 }
 
-// Visits what the ray may hit in the subtree or leaf `start`, entered at `near`, at no more than visitor.limit: near first, but for kAny in
-// no order. visitor.hit(t, primitive) is called for every hit found, visitor.certain(primitive) where kAny needs no t; both
-// return true to end.
-template <class Visitor>
-HWY_INLINE void traverse(const Bvh::Data& data, uint32_t start, float near, const LaneRay& ray, Visitor& visitor) {
+// Goes down from `start` to the leaves that the ray may meet at no more than visitor.limit: near first, but for kAny in no order. visit(child) is
+// called for each; it returns true to end, and so does this.
+template <class Visitor, class Ray, class Visit>
+HWY_INLINE bool descend_to_leaves(const AlignedBuffer<BvhNode>& nodes, uint32_t start, const Ray& ray, const Visitor& visitor, const Visit& visit) {
   Stack stack;
   uint32_t child = start;
-  if (!Visitor::kAny && near > visitor.limit) return;
   for (;;) {
     if ((child & kLeafBit) == 0) {
-      const BvhNode& node = data.nodes[child];
+      const BvhNode& node = nodes[child];
       child = Visitor::kAny ? stack.push_any(node, ray, visitor.limit) : stack.push_sorted(node, ray, visitor.limit);
       if (child != kNothing) continue;
-    } else if (visit_leaf(data, child, ray, visitor)) {
-      return;
+    } else if (visit(child)) {
+      return true;
     }
     do {
-      if (stack.top == 0) return;
+      if (stack.top == 0) return false;
       --stack.top;
     } while (!Visitor::kAny && stack.near[stack.top] > visitor.limit);
     child = stack.child[stack.top];
   }
+}
+
+// Visits what the ray may hit in the subtree or leaf `start`, entered at `near`. visitor.hit(t, primitive) is called for every hit found,
+// visitor.certain(primitive) where kAny needs no t; both return true to end.
+template <class Visitor>
+HWY_INLINE void traverse(const Bvh::Data& data, uint32_t start, float near, const LaneRay& ray, Visitor& visitor) {
+  if (!Visitor::kAny && near > visitor.limit) return;
+  descend_to_leaves(data.nodes, start, ray, visitor, [&](uint32_t leaf) HWY_ATTR { return visit_leaf(data, leaf, ray, visitor); });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
