@@ -52,8 +52,7 @@ class NormalMap {
   }
 
  private:
-  // Not inlined: GCC 12 vectorises the way from double to float and back away (bug of its SLP pass at -O2 and -O3).
-  [[gnu::noinline]] static void store_unit(const glm::dvec3& n, const glm::dvec3& fallback, float* to) {
+  static void store_unit(const glm::dvec3& n, const glm::dvec3& fallback, float* to) {
     const glm::dvec3 unit = normalize3(n, fallback);
     for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(unit[i]) + 0.0f;
   }
