@@ -33,14 +33,6 @@ void shade_ambient_kernel(const Frame& frame, const SurfaceBatch& s, float* cons
   }
 }
 
-HWY_INLINE Site flat_site(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, Mask active, int i) {
-  const SceneData& scene = *frame.scene;
-  const I32 primitive = select(active, I32::load(s.primitive + i), I32::zero());
-  V3 corner[3];
-  for (int j = 0; j < 3; ++j) corner[j] = vertex_position(scene, corner_vertex(scene, primitive, j));
-  return face_site(corner, load3(s.geometric_normal, i), viewer_of(frame, s, hits, active, i));
-}
-
 // Adds one light to each surface: intensity * attenuation * (Kd * diffuse + Ks * specular) (catalog/reflectance).
 // Input:    surfaces, the bits of those that the light reaches; plan.specular off: Ks is not read.
 // Contract: a surface whose geometric normal does not face the light gets nothing, but by lifted rays. Entries are independent: equal bits
@@ -60,7 +52,8 @@ void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, 
     active = active & reached(frame, s, i, incidence, lit);
     if (!any(active)) continue;
     if (flat) {
-      site = flat_site(frame, s, hits, active, i);
+      const I32 primitive = select(active, I32::load(s.primitive + i), I32::zero());
+      site = face_site(scene, primitive, load3(s.geometric_normal, i), viewer_of(frame, s, hits, active, i));
       incidence = Kind::incidence(lanes, site.position);
     }
     const F32 n_l = formula::dot(site.normal, incidence.direction);

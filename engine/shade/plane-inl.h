@@ -228,6 +228,9 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
   store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
 }
 
+// Lanes whose primitive is a triangle: no miss, no sphere.
+HWY_INLINE Mask hits_triangle(const SceneData& scene, I32 primitive) { return less_unsigned(primitive, i32(static_cast<uint32_t>(scene.triangles.size()))); }
+
 // Finds the planes of a block by triangle and cell.
 class PlaneFinder {
  public:
@@ -259,7 +262,7 @@ HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
   for (const uint32_t v : scene.triangles[primitive].vertex) __builtin_prefetch(&scene.vertices[v]);
 }
 
-// The planes of up to kPlaneHits hits from `at` on; misses have none.
+// The planes of up to kPlaneHits hits from `at` on; misses and spheres have none.
 void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   const SceneData& scene = *frame.scene;
@@ -269,12 +272,12 @@ void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& 
   int fetched = 0;
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
-    const Mask missed = listed == i32(kNoPrimitive);
-    const I32 primitive = select(missed, i32(0), listed), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
+    const Mask hit = hits_triangle(scene, listed);
+    const I32 primitive = select(hit, listed, i32(0)), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
     uint32_t primitives[kLanes], cells[kLanes];
     primitive.store(primitives), cell.store(cells);
-    I32 plane = i32(0);  // misses, and lanes past the last hit, point to the first
-    uint32_t left = to_bits(and_not(missed, first_lanes(count - i)));
+    I32 plane = i32(0);  // the others, and lanes past the last hit, point to the first
+    uint32_t left = to_bits(hit & first_lanes(count - i));
     for (int found = 0; left != 0 && found < kTogether; ++found) {
       const int k = __builtin_ctz(left);
       const Mask same = (primitive == i32(primitives[k])) & (cell == i32(cells[k]));

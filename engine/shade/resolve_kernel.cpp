@@ -34,12 +34,12 @@ HWY_INLINE void store_footprint(const Group& g, float* const field[3], const V3f
   put(g, field, {clamp_(d.x, -limit, limit), clamp_(d.y, -limit, limit), clamp_(d.z, -limit, limit)});
 }
 
-HitLanes load_hits(const HitBatch& hits, int at) {
+HitLanes load_hits(const SceneData& scene, const HitBatch& hits, int at) {
   HitLanes h;
   h.rays = hits.rays;
   h.primitive = I32::load(hits.primitive.data() + at);
   const int left = hits.count - at;
-  h.valid = first_lanes(left < kLanes ? left : kLanes) & (h.primitive != i32(kNoPrimitive));
+  h.valid = first_lanes(left < kLanes ? left : kLanes) & hits_triangle(scene, h.primitive);
   h.pixel = I32::load(hits.pixel.data() + at);
   h.ray = secondary(hits.rays) != nullptr ? select(h.valid, I32::load(hits.ray.data() + at), i32(0)) : i32(0);
   const uint32_t lanes = to_bits(h.valid);
@@ -187,7 +187,8 @@ HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const Su
 
 // Recomputes the surface of every hit of a batch, kLanes at a time.
 // Source:   DESIGN 1; the steps cite theirs.
-// Input:    hits.count entries; out.count == hits.count.   Output: every field of out, of the optional ones those in out.fields.
+// Input:    hits.count entries; out.count == hits.count.   Output: every field of out, of the optional ones those in out.fields;
+//           0 where a ray hit no triangle.
 // Contract: each entry is a function of its own ray, primitive and the frame alone: lanes, order and batch size change no bit.
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
@@ -199,7 +200,7 @@ void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
       const int vectors = (planes.planes + kLanes - 1) / kLanes;
       out.plane_lanes.add({static_cast<uint64_t>(vectors * kLanes), static_cast<uint64_t>(planes.planes)});
     }
-    const HitLanes lanes = load_hits(hits, at);
+    const HitLanes lanes = load_hits(*frame.scene, hits, at);
     UvLanes uv;
     if (any(lanes.valid)) {
       if (primary)

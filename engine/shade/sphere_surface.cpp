@@ -114,33 +114,12 @@ void resolve_sphere(const Frame& frame, const HitBatch& hits, int i, SurfaceBatc
 
 bool is_sphere(const SceneData& scene, uint32_t primitive) { return primitive != kNoPrimitive && scene.is_sphere(primitive); }
 
-void copy_hits(const HitBatch& from, HitBatch& to) {
-  const size_t n = static_cast<size_t>(from.count);
-  const auto copy = [n](const AlignedBuffer<uint32_t>& a, AlignedBuffer<uint32_t>& b) {
-    if (a.empty()) return;
-    b.resize(n);
-    std::copy_n(a.data(), n, b.data());
-  };
-  to.rays = from.rays, to.count = from.count;
-  copy(from.pixel, to.pixel), copy(from.ray, to.ray), copy(from.primitive, to.primitive), copy(from.instance, to.instance),
-      copy(from.place, to.place);
-}
-
 }  // namespace
 
 void resolve_with_spheres(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
-  const SceneData& scene = *frame.scene;
-  const ResolveFn kernel = kResolve[isa_index(frame.isa)];
-  const uint32_t* const end = hits.primitive.data() + hits.count;
-  if (std::none_of(hits.primitive.data(), end, [&](uint32_t p) { return is_sphere(scene, p); }))
-    return kernel(frame, hits, out);
-  HitBatch triangles;
-  copy_hits(hits, triangles);
-  for (uint32_t& p : triangles.primitive)
-    if (is_sphere(scene, p)) p = kNoPrimitive;
-  kernel(frame, triangles, out);  // misses are cleared
+  kResolve[isa_index(frame.isa)](frame, hits, out);  // triangles; all else is cleared
   for (int i = 0; i < hits.count; ++i)
-    if (is_sphere(scene, hits.primitive[static_cast<size_t>(i)])) resolve_sphere(frame, hits, i, out), out.spheres.push_back(i);
+    if (is_sphere(*frame.scene, hits.primitive[static_cast<size_t>(i)])) resolve_sphere(frame, hits, i, out), out.spheres.push_back(i);
 }
 
 }  // namespace spanray

@@ -80,6 +80,12 @@ HWY_INLINE Site face_site(const V3 (&corner)[3], const V3& geometric_normal, con
   return site;
 }
 
+HWY_INLINE Site face_site(const SceneData& scene, I32 primitive, const V3& geometric_normal, const Viewer& viewer) {
+  V3 corner[3];
+  for (int j = 0; j < 3; ++j) corner[j] = vertex_position(scene, corner_vertex(scene, primitive, j));
+  return face_site(corner, geometric_normal, viewer);
+}
+
 // Attenuation times reflectance times cosine at a site that the light falls on with cosine n_l. specular: of it too.
 HWY_INLINE Reflected light_site(const Frame& frame, const Site& site, const Incidence& incidence, F32 n_l, F32 shininess, I32 model, Mask active,
                                 bool specular) {
@@ -119,9 +125,7 @@ HWY_INLINE Reflected light_triangles(const Frame& frame, const LightLanes& light
 template <class Kind>
 HWY_INLINE Reflected light_faces(const Frame& frame, const LightLanes& light, I32 primitive, I32 material, const Viewer& viewer,
                                  const V3& geometric_normal) {
-  V3 corner[3];
-  for (int j = 0; j < 3; ++j) corner[j] = vertex_position(*frame.scene, corner_vertex(*frame.scene, primitive, j));
-  return light_face<Kind>(frame, light, face_site(corner, geometric_normal, viewer), corner_material(*frame.scene, material));
+  return light_face<Kind>(frame, light, face_site(*frame.scene, primitive, geometric_normal, viewer), corner_material(*frame.scene, material));
 }
 
 // visit(kind) with the LightKind_ of a light.
