@@ -203,6 +203,23 @@ bool worth_it(const std::vector<Place>& places, size_t parts, const Part& part, 
   return saved >= kLeastSaved;
 }
 
+// The instances for which a tree of their part is to be used.
+std::vector<Candidate> choose_places(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
+                                     InstanceUse use) {
+  if (scene.instances.empty() || use == InstanceUse::kNever) return {};
+  const size_t parts = scene.instanced_parts.size();
+  // Before anything is looked at closely: were all of them usable, would it be worth it?
+  if (use == InstanceUse::kAuto &&
+      !worth_it(scene.instances, parts, [](const Instance& i) { return i.part; }, [](const Instance& i) { return i.count; }))
+    return {};
+  std::vector<Candidate> places = find_candidates(scene, material_flags, mask, value, parallel);
+  std::erase_if(places, [](const Candidate& c) { return !c.usable; });
+  if (use == InstanceUse::kAuto &&
+      !worth_it(places, parts, [](const Candidate& c) { return c.placed.part; }, [](const Candidate& c) { return c.triangles; }))
+    return {};
+  return places;
+}
+
 }  // namespace
 
 size_t InstanceTrees::memory_bytes() const {
@@ -211,21 +228,14 @@ size_t InstanceTrees::memory_bytes() const {
   return bytes;
 }
 
+bool worth_two_levels(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
+  return !choose_places(scene, material_flags, mask, value, parallel, InstanceUse::kAuto).empty();
+}
+
 std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
                                                      Parallel& parallel, TreeQuality quality, InstanceUse use) {
-  if (scene.instances.empty() || use == InstanceUse::kNever) return nullptr;
-  const size_t parts = scene.instanced_parts.size();
-  // Before anything is looked at closely: were all of them usable, would it be worth it?
-  if (use == InstanceUse::kAuto &&
-      !worth_it(scene.instances, parts, [](const Instance& i) { return i.part; }, [](const Instance& i) { return i.count; }))
-    return nullptr;
-  std::vector<Candidate> places = find_candidates(scene, material_flags, mask, value, parallel);
-  std::erase_if(places, [](const Candidate& c) { return !c.usable; });
+  const std::vector<Candidate> places = choose_places(scene, material_flags, mask, value, parallel, use);
   if (places.empty()) return nullptr;
-  if (use == InstanceUse::kAuto &&
-      !worth_it(places, parts, [](const Candidate& c) { return c.placed.part; }, [](const Candidate& c) { return c.triangles; }))
-    return nullptr;
-
   const auto trees = std::make_shared<InstanceTrees>();
   std::vector<double> stretch(scene.instanced_parts.size(), 0);
   std::vector<uint32_t> model(scene.instanced_parts.size(), 0);

@@ -63,4 +63,7 @@ struct InstanceTrees {
 std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
                                                      Parallel& parallel, TreeQuality quality, InstanceUse use);
 
+// Whether build_instances() with kAuto would give trees. Builds none.
+bool worth_two_levels(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel);
+
 }  // namespace spanray

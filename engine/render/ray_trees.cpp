@@ -1,6 +1,10 @@
 #include "render/ray_trees.h"
 
+#include <algorithm>
+
 #include "core/timed.h"
+#include "ray/bvh_data.h"
+#include "ray/bvh_instances.h"
 
 namespace spanray {
 
@@ -35,6 +39,23 @@ RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQu
   follow(plan.flags.bvh, 0, opaque_);
   follow(plan.flags.translucent_bvh, kMaterialTranslucent, translucent_);
   return work;
+}
+
+int RayTrees::levels() const {
+  int most = 0;
+  for (const Tree* tree : {&opaque_, &translucent_})
+    if (tree->bvh) most = std::max(most, tree->bvh->data().instances ? 2 : 1);
+  return most;
+}
+
+int tree_levels(const SceneData& scene, const Settings& settings) {
+  const Plan plan = make_plan(scene, find_scene_use(scene), settings);
+  Parallel parallel(settings.threads);
+  const auto two = [&](bool needed, uint32_t value) {
+    return needed && worth_two_levels(scene, plan.material_flags.data(), kMaterialTranslucent, value, parallel);
+  };
+  if (!plan.flags.bvh && !plan.flags.translucent_bvh) return 0;
+  return two(plan.flags.bvh, 0) || two(plan.flags.translucent_bvh, kMaterialTranslucent) ? 2 : 1;
 }
 
 size_t RayTrees::memory_bytes() const {
