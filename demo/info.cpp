@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 
 #include "command.h"
+#include "core/counted.h"
 #include "core/hash.h"
 #include "frame_options.h"
+#include "render/ray_trees.h"
 #include "scene/scene_data.h"
 #include "scene/text_input.h"
 #include "stats_json.h"
@@ -20,13 +22,26 @@ struct InfoOptions {
   bool json = false;
 };
 
+size_t triangles_of_instances(const SceneData& scene) {
+  size_t sum = 0;
+  for (const Instance& i : scene.instances) sum += i.count;
+  return sum;
+}
+
 void print_json(const Job& job, const std::string& path, const std::vector<PlanLine>& plan) {
   const SceneData& scene = job.scene.data();
   nlohmann::ordered_json out;
   out["scene"] = path;
   out["scene_hash"] = hash_text(job.scene.hash());
   out["triangles"] = scene.triangles.size();
+  if (!scene.instances.empty()) {
+    out["instances"] = {{"parts", scene.instanced_parts.size()},
+                        {"places", scene.instances.size()},
+                        {"triangles", triangles_of_instances(scene)}};
+    out["bvh_levels"] = tree_levels(scene, job.settings);
+  }
   if (!scene.spheres.empty()) out["spheres"] = scene.spheres.size();
+  if (!scene.planes.empty()) out["planes"] = scene.planes.size();
   out["vertices"] = scene.vertices.size();
   out["materials"] = scene.materials.size();
   out["textures"] = scene.textures.size();
@@ -49,7 +64,16 @@ void print_text(const Job& job, const std::string& path, const std::vector<PlanL
   std::printf("%-12s %s\n", "scene", path.c_str());
   std::printf("%-12s %s\n", "scene_hash", hash_text(job.scene.hash()).c_str());
   number("triangles", scene.triangles.size());
+  if (!scene.instances.empty()) {
+    static constexpr const char* kTrees[] = {"no ray is traced", "rays: one tree over all copies",
+                                             "rays: a tree of two levels"};
+    std::printf("%-12s %s of %s, %s; %s\n", "instances", counted(scene.instances.size(), "copy", "copies").c_str(),
+                counted(scene.instanced_parts.size(), "part", "parts").c_str(),
+                counted(triangles_of_instances(scene), "triangle", "triangles").c_str(),
+                kTrees[tree_levels(scene, job.settings)]);
+  }
   if (!scene.spheres.empty()) number("spheres", scene.spheres.size());
+  if (!scene.planes.empty()) number("planes", scene.planes.size());
   number("vertices", scene.vertices.size());
   number("materials", scene.materials.size());
   number("textures", scene.textures.size());

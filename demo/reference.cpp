@@ -16,6 +16,7 @@
 #include "progress_line.h"
 #include "reference/ambiguity.h"
 #include "render/check_request.h"
+#include "scene/scene_data.h"
 
 namespace spanray::demo {
 namespace {
@@ -84,8 +85,8 @@ int reference(const ReferenceCommand& command) {
   const Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);
   if (auto possible = check_request(job.scene, job.camera, job.settings); !possible) return fail(possible.error());
-  if (!command.mask.empty() && job.scene.sphere_count() > 0)
-    return fail("reference: --mask: the scene has spheres, which the ambiguity mask does not model");
+  if (!command.mask.empty() && job.scene.data().has_exact())
+    return fail("reference: --mask: the scene has spheres or planes, which the ambiguity mask does not model");
   Result<PathPicture> rendered = command.paths.paths > 0 ? command.paths.render(job) : render_model(command, job);
   if (!rendered) return fail(rendered.error());
   PathPicture& made = rendered.value();

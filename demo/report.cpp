@@ -93,8 +93,8 @@ int run_report(const ReportCommand& command) {
   if (command.out.empty()) throw UsageError("report: --out is required");
   Result<Job> job = command.frame.load();
   if (!job) return fail(job.error());
-  if (job.value().scene.sphere_count() > 0)
-    return fail("report: the scene has spheres, which the ambiguity mask does not model; `reference` and `compare` do without");
+  if (job.value().scene.data().has_exact())
+    return fail("report: the scene has spheres or planes, which the ambiguity mask does not model; `reference` and `compare` do without");
   if (auto made = make_report_folder(command.out, "report.html"); !made) return fail(made.error());
   for (const std::string& text : job.value().messages) message(text);
   command.frame.say_what_settings_lose("report");

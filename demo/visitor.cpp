@@ -101,8 +101,8 @@ double distance_from(const double (&eye)[3], const RayHit& hit) { return length3
 
 std::string hit_text(const std::optional<RayHit>& hit, const double (&eye)[3]) {
   if (!hit) return "background";
-  std::string text = (hit->name.sphere ? "sphere, id " : "triangle ") + std::to_string(hit->name.triangle) + ", material " +
-                     std::string(hit->name.material);
+  const char* kind = hit->name.sphere ? "sphere, id " : hit->name.plane ? "plane, id " : "triangle ";
+  std::string text = kind + std::to_string(hit->name.triangle) + ", material " + std::string(hit->name.material);
   if (!hit->name.object.empty()) text += ", object " + std::string(hit->name.object);
   if (!hit->name.group.empty()) text += ", group " + std::string(hit->name.group);
   char away[40];

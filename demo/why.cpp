@@ -73,7 +73,11 @@ void print_surface(int indent, const SurfaceTrace& s, const SceneData& scene) {
     row(indent, "sphere: center", scene.sphere(s.primitive).center);
     row(indent, "radius", scene.sphere(s.primitive).radius);
   }
-  for (int j = 0; j < 3 && !scene.is_sphere(s.primitive); ++j) {
+  if (scene.is_plane(s.primitive)) {
+    row(indent, "plane: point", scene.plane(s.primitive).point);
+    row(indent, "normal", scene.plane(s.primitive).normal);
+  }
+  for (int j = 0; j < 3 && scene.is_triangle(s.primitive); ++j) {
     const Triangle& triangle = scene.triangles[s.primitive];
     const std::string label = "vertex " + std::to_string(triangle.vertex[j]);
     row(indent, label.c_str(), scene.vertices[triangle.vertex[j]].position);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "ray/bvh_data.h"
 #include "support/ray_answers.h"
 
@@ -56,7 +56,7 @@ struct Nearest {
 Nearest ask_all(const TestFrame& t, const RayBatch& rays, int i, uint32_t triangle) {
   Nearest best;
   double best_t = kInf;
-  SphereRay ray;
+  ExactRay ray;
   ray.origin = ray_origin(rays, i), ray.direction = ray_direction(rays, i), ray.from = rays.from[i];
   ray.front_only = t.frame.settings.culling == Culling::kBack;
   if (triangle != kNoPrimitive) {
@@ -67,7 +67,7 @@ Nearest ask_all(const TestFrame& t, const RayBatch& rays, int i, uint32_t triang
     const uint32_t id = static_cast<uint32_t>(t.scene.triangles.size() + s);
     const double at = first_hit(ray, t.scene.spheres[s], id).t;
     if (at <= static_cast<double>(rays.t_max[i]) && at < best_t) best = {id, true}, best_t = at;
-    SphereRay both = ray;
+    ExactRay both = ray;
     both.front_only = false;
     best.any |= first_hit(both, t.scene.spheres[s], id).t <=
                 static_cast<double>(std::min(rays.t_max[i], std::numeric_limits<float>::max()));

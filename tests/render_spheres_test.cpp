@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "frame/primary_rays.h"
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "math/elementary.h"
 #include "reference/reference.h"
 #include "support/frame_count.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "shade/light.h"
 #include "support/random.h"
 #include "support/test_frame.h"

@@ -27,8 +27,8 @@ class Bvh {
   std::unique_ptr<Data> data_;
 };
 
-// Builds over the triangles, and the spheres, whose material flags satisfy (flags & mask) == value; material_flags as in Frame. The tree is the
-// same for any number of threads, and hits do not depend on it, nor on its quality. An empty set is allowed. follows_motion: for a BvhRefit.
+// Builds over the triangles and exact primitives whose material flags satisfy (flags & mask) == value; material_flags as in Frame. The tree is
+// the same for any number of threads, and hits do not depend on it, nor on its quality. An empty set is allowed. follows_motion: for a BvhRefit.
 Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
               TreeQuality quality = TreeQuality::kFast, bool follows_motion = false, InstanceUse instances = InstanceUse::kAuto);
 
@@ -37,7 +37,7 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
 // of the origin, in double, so t = 0 is none; a hit at exactly t_max counts. A direction that is zero, NaN or infinite, an origin that
 // is not finite, a t_max that is negative or NaN: miss. Answers depend neither on the tree, nor on the order of the batch, nor on the
 // instruction set; speed does: 16 neighbours that point into one octant go down the tree together. Thread-safe.
-// Spheres (ray/sphere_tree.h) are hit like triangles, but by primary rays (rays.primary), which leave them to raster/spheres.h.
+// Exact primitives (ray/exact_set.h) are hit like triangles, but by primary rays (rays.primary), which leave them to raster/exact.h.
 void trace_closest(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out);
 
 // Bit i of out (32 a word) is set if ray i hits anything with t in [0, t_max]. Both faces occlude.
@@ -47,7 +47,7 @@ void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_
 // twice. kOfOne: each surface that a ray crosses once (owns_hit() of ray/triangle_test.h), as the rasterizer's top-left rule has it.
 enum class HitsOnEdges { kOfAll, kOfOne };
 
-// Appends every hit with t in [0, t_max] (unordered, each primitive once a ray). Of triangles: spheres are opaque, so no layers.
+// Appends every hit with t in [0, t_max] (unordered, each primitive once a ray). Of triangles: exact primitives are opaque, so no layers.
 void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, HitsOnEdges edges, FragmentList& out);
 
 }  // namespace spanray

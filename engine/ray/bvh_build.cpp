@@ -190,9 +190,10 @@ Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 Bvh::~Bvh() = default;
 size_t Bvh::memory_bytes() const {
-  return data_->nodes.bytes() + data_->blocks.bytes() + data_->spheres.memory_bytes() + (data_->instances ? data_->instances->memory_bytes() : 0);
+  const size_t instances = data_->instances ? data_->instances->memory_bytes() : 0;
+  return data_->nodes.bytes() + data_->blocks.bytes() + data_->exact.memory_bytes() + instances;
 }
-size_t Bvh::primitive_count() const { return data_->primitives + data_->spheres.size(); }
+size_t Bvh::primitive_count() const { return data_->primitives + data_->exact.size(); }
 
 Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,
               TreeQuality quality, bool follows_motion, InstanceUse use) {
@@ -202,7 +203,7 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
   AlignedBuffer<Ref> refs =
       collect_refs(scene, material_flags, mask, value, data.instances ? data.instances->ranges : std::vector<TriangleRange>(), parallel);
   data.primitives = data.references = refs.size();
-  if (!scene.spheres.empty()) data.spheres = SphereTree(scene, material_flags, mask, value);
+  if (scene.has_exact()) data.exact = ExactSet(scene, material_flags, mask, value);
   if (refs.empty() && !data.instances) return bvh;
   Box all = Box::empty();
   if (refs.empty()) {

@@ -5,7 +5,7 @@
 
 #include "core/aligned.h"
 #include "ray/bvh.h"
-#include "ray/sphere_tree.h"
+#include "ray/exact_set.h"
 
 namespace spanray {
 
@@ -43,7 +43,7 @@ struct Bvh::Data {
   size_t primitives = 0;
   size_t references = 0;  // triangles in leaves: more than `primitives` where parts of one stand in several
   int depth = 0;  // nodes on the longest path
-  SphereTree spheres;  // of the same material flags; all else here is about triangles
+  ExactSet exact;  // of the same material flags; all else here is about triangles
 };
 
 }  // namespace spanray

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "ray/triangle_test.h"
 
 namespace spanray {
@@ -18,27 +18,6 @@ float round_out(double x, float direction) {
   const float f = static_cast<float>(x);
   return direction > 0 ? (static_cast<double>(f) < x ? std::nextafterf(f, direction) : f)
                        : (static_cast<double>(f) > x ? std::nextafterf(f, direction) : f);
-}
-
-bool finite3(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-SphereRay ray_of(const RayBatch& rays, int i) {
-  SphereRay ray;
-  for (int k = 0; k < 3; ++k) ray.origin[k] = rays.origin[k][i], ray.direction[k] = rays.direction[k][i];
-  ray.t_max = rays.t_max[i];
-  if (!rays.from.empty()) ray.from = rays.from[i];
-  return ray;
-}
-
-// t of a triangle that the ray is known to meet, in units of its direction.
-double triangle_t(const SceneData& scene, const RayBatch& rays, int i, uint32_t primitive) {
-  float origin[3], direction[3], corner[9];
-  for (int k = 0; k < 3; ++k) origin[k] = rays.origin[k][i], direction[k] = rays.direction[k][i];
-  for (int v = 0; v < 3; ++v) std::copy_n(scene.vertices[scene.triangles[primitive].vertex[v]].position, 3, corner + 3 * v);
-  TraceRay ray;
-  double t = 0;
-  if (!prepare_ray(origin, direction, rays.t_max[i], ray) || !hit_triangle(ray, TriangleView{corner, 3, 1}, t)) return 0;
-  return t * (ray.direction_z / static_cast<double>(direction[ray.kz]));  // a power of two
 }
 
 }  // namespace
@@ -88,10 +67,9 @@ void SphereTree::build(size_t begin, size_t end) {
 // visit(item, limit) for every sphere of the leaves that the ray meets within (.., limit], limit being t_max or less, near ones
 // first; true ends the walk.
 template <class Visit>
-void SphereTree::walk(const SphereRay& ray, const Visit& visit) const {
+void SphereTree::walk(const ExactRay& ray, const Visit& visit) const {
   double limit = ray.t_max, inverse[3];
-  if (nodes_.empty() || !finite3(ray.origin) || !finite3(ray.direction) || ray.direction == glm::dvec3(0) || std::isnan(limit))
-    return;
+  if (nodes_.empty()) return;
   for (int k = 0; k < 3; ++k) inverse[k] = 1 / ray.direction[k];
   const auto enters = [&](const Node& node, double& near) {
     double far = limit;
@@ -133,40 +111,23 @@ void SphereTree::walk(const SphereRay& ray, const Visit& visit) const {
   }
 }
 
-SphereMeeting SphereTree::closest(const SphereRay& ray) const {
-  SphereMeeting best;
+ExactMeeting SphereTree::closest(const ExactRay& ray) const {
+  ExactMeeting best;
   walk(ray, [&](const Item& item, double& limit) {
     const double t = first_hit(ray, item.sphere, item.primitive).t;
-    if (!(t <= limit) || t == std::numeric_limits<double>::infinity()) return false;
-    if (best.primitive != kNoPrimitive && t == best.t && item.primitive > best.primitive) return false;
-    best = {item.primitive, t}, limit = t;
+    if (t <= limit && best.improve(item.primitive, t)) limit = t;
     return false;
   });
   return best;
 }
 
-bool SphereTree::any(const SphereRay& ray) const {
+bool SphereTree::any(const ExactRay& ray) const {
   bool found = false;
   walk(ray, [&](const Item& item, double& limit) {
     const double t = first_hit(ray, item.sphere, item.primitive).t;
     return found = t <= limit && t != std::numeric_limits<double>::infinity();
   });
   return found;
-}
-
-void closest_spheres(const Frame& frame, const SphereTree& spheres, const RayBatch& rays, uint32_t* out) {
-  for (int i = 0; i < rays.count; ++i) {
-    SphereRay ray = ray_of(rays, i);
-    ray.front_only = frame.settings.culling == Culling::kBack;
-    const SphereMeeting met = spheres.closest(ray);
-    if (met.primitive == kNoPrimitive) continue;
-    if (out[i] == kNoPrimitive || met.t < triangle_t(*frame.scene, rays, i, out[i])) out[i] = met.primitive;
-  }
-}
-
-void any_spheres(const SphereTree& spheres, const RayBatch& rays, uint32_t* out) {
-  for (int i = 0; i < rays.count; ++i)
-    if ((out[i / 32] >> (i % 32) & 1u) == 0 && spheres.any(ray_of(rays, i))) out[i / 32] |= 1u << (i % 32);
 }
 
 }  // namespace spanray

@@ -1,18 +1,25 @@
-// Rays against spheres: a small tree of their own beside that of the triangles (ray/bvh.h), so that triangles pay nothing for
-// them.
+// Rays against spheres: a small tree of their own.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "frame/frame.h"
 
 namespace spanray {
 
-struct SphereRay;  // frame/sphere_hit.h
+struct ExactRay;  // frame/exact_hit.h
 
-struct SphereMeeting {
+struct ExactMeeting {
   uint32_t primitive = kNoPrimitive;
-  double t = 0;
+  double t = std::numeric_limits<double>::infinity();
+  // The nearer of two, of equal ones the lowest primitive; infinity is no hit.
+  bool improve(uint32_t other, double other_t) {
+    if (!(other_t < t || (other_t == t && other < primitive)) || other_t == std::numeric_limits<double>::infinity())
+      return false;
+    primitive = other, t = other_t;
+    return true;
+  }
 };
 
 class SphereTree {
@@ -31,10 +38,10 @@ class SphereTree {
   const std::vector<Item>& items() const { return spheres_; }
 
   // The first hit, ties to the lowest primitive; and whether there is any. What they answer is what first_hit()
-  // (frame/sphere_hit.h) says of every sphere: it does not depend on the tree. A direction that is zero or not finite, an
-  // origin that is not, a t_max that is NaN: miss.
-  SphereMeeting closest(const SphereRay& ray) const;
-  bool any(const SphereRay& ray) const;
+  // (frame/exact_hit.h) says of every sphere: it does not depend on the tree. Origin and direction finite, the direction not
+  // zero, no NaN (ray/exact_set.h asks).
+  ExactMeeting closest(const ExactRay& ray) const;
+  bool any(const ExactRay& ray) const;
 
  private:
   // Boxes hold their spheres with a margin (kMargin), and are rounded outwards.
@@ -44,15 +51,10 @@ class SphereTree {
   };
   void build(size_t begin, size_t end);
   template <class Visit>
-  void walk(const SphereRay& ray, const Visit& visit) const;
+  void walk(const ExactRay& ray, const Visit& visit) const;
 
   std::vector<Item> spheres_;
   std::vector<Node> nodes_;
 };
-
-// trace_closest and trace_any of ray/bvh.h, for spheres: after the triangles. out: of the triangles, and then of both.
-// Not for primary rays: what these see of spheres is found by raster/spheres.h, for both visibility engines alike.
-void closest_spheres(const Frame& frame, const SphereTree& spheres, const RayBatch& rays, uint32_t* out);
-void any_spheres(const SphereTree& spheres, const RayBatch& rays, uint32_t* out);
 
 }  // namespace spanray

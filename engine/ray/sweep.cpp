@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "ray/bvh_data.h"
-#include "ray/sweep_spheres.h"
+#include "ray/sweep_exact.h"
 
 namespace spanray {
 namespace {
@@ -93,7 +93,7 @@ SphereHit sweep_sphere(const Bvh& bvh, const glm::dvec3& start, const glm::dvec3
       stack[at] = child;
     }
   }
-  sweep_spheres(data.spheres, start, sweep.motion, radius, best);
+  sweep_exact(data.exact, start, sweep.motion, radius, best);
   return best;
 }
 
@@ -124,7 +124,7 @@ std::vector<SphereHit> touch_sphere(const Bvh& bvh, const glm::dvec3& center, do
       if (near) stack.push_back(node.child[c]);
     }
   }
-  touch_spheres(data.spheres, center, radius, hits);
+  touch_exact(data.exact, center, radius, hits);
   std::sort(hits.begin(), hits.end(), [](const SphereHit& a, const SphereHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.primitive < b.primitive;
   });

@@ -198,7 +198,7 @@ Result<void> make_ambiguity_mask(const Scene& scene, const Camera& camera, const
                                  const ReferenceOptions& options, const AmbiguityBounds& bounds, AmbiguityMask& out) {
   if (!scene.valid()) return Error{"ambiguity mask: there is no scene"};
   if (Result<void> checked = reference::check_request(scene.data(), settings, options.grid); !checked) return checked;
-  if (scene.sphere_count() > 0) return Error{"ambiguity mask: spheres are not modelled; only scenes of triangles have one"};
+  if (scene.data().has_exact()) return Error{"ambiguity mask: spheres and planes are not modelled; only scenes of triangles have one"};
   const Scene standing = scene_at(scene, settings.time);
   const reference::MaskRenderer renderer(standing.data(), camera, settings, options, bounds);
   const size_t width = static_cast<size_t>(settings.width), pixels = width * static_cast<size_t>(settings.height);

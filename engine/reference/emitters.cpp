@@ -30,7 +30,7 @@ Emitters::Emitters(const World& world) : world_(world) {
 }
 
 double Emitters::density(uint32_t primitive) const {
-  if (world_.scene.is_sphere(primitive)) return 0;
+  if (!world_.scene.is_triangle(primitive)) return 0;
   return power_ > 0 ? glow_[material_of(world_.scene, primitive)] / power_ : 0;
 }
 

@@ -1,4 +1,4 @@
-// Triangles that glow, as lamps with an area. Spheres that glow are not among them: paths find these by chance.
+// Triangles that glow, as lamps with an area. Spheres and planes that glow are not among them: paths find these by chance.
 #pragma once
 #include "reference/world.h"
 

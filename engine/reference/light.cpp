@@ -87,7 +87,7 @@ bool faces_lifted(const Surface& s, const Light& light) {
 
 glm::dvec3 reflected(const SceneData& scene, Shading shading, const Surface& s, const Light& light, const glm::dvec3& viewer) {
   const Material& m = scene.materials[material_of(scene, s.primitive)];
-  if (scene.is_sphere(s.primitive)) shading = Shading::kPhong;  // always by its own normal
+  if (!scene.is_triangle(s.primitive)) shading = Shading::kPhong;  // always by its own normal
   if (shading == Shading::kFlat) return flat(scene, s, m.reflectance, light, viewer);
   if (shading == Shading::kGouraud) return gouraud(scene, s, m, light, viewer);
   const Incidence in = incidence(light, s.position);

@@ -57,6 +57,16 @@ struct Surfaces::Point {
   glm::dvec3 position{0}, geometric{0}, position_dx{0}, position_dy{0};
   double du[2] = {}, dv[2] = {};  // what the weights 1 and 2 add to u and v
   Coordinates uv;
+
+  // How the position moves on the plane that touches the surface there, with the footprint of its ray, t and normal being known.
+  void move(const Ray& ray) {
+    const glm::dvec3& d = ray.line.direction;
+    const auto on_plane = [&](const glm::dvec3& origin_d, const glm::dvec3& direction_d) {
+      const glm::dvec3 moved = origin_d + direction_d * t;
+      return moved - d * (dot3(moved, normal) / dot3(d, normal));
+    };
+    position_dx = on_plane(ray.origin_dx, ray.direction_dx), position_dy = on_plane(ray.origin_dy, ray.direction_dy);
+  }
 };
 
 // As point_at, of a sphere, with the tangent plane for that of a triangle; v[0] is the center, the edges stand for its size.
@@ -73,11 +83,22 @@ Surfaces::Point Surfaces::point_on_sphere(const Ray& ray, uint32_t primitive) co
   const glm::dvec3 outward = normalize3(o + d * p.t - p.v[0], glm::dvec3(0, 0, 1));
   p.position = p.v[0] + outward * double{sphere.radius};
   p.normal = p.geometric = enters ? outward : -outward;
-  const auto on_plane = [&](const glm::dvec3& origin_d, const glm::dvec3& direction_d) {
-    const glm::dvec3 moved = origin_d + direction_d * p.t;
-    return moved - d * (dot3(moved, p.normal) / dot3(d, p.normal));
-  };
-  p.position_dx = on_plane(ray.origin_dx, ray.direction_dx), p.position_dy = on_plane(ray.origin_dy, ray.direction_dy);
+  p.move(ray);
+  return p;
+}
+
+// As point_at, of a plane. What the clearance is made from, v[0] and the edges, is the position and the way to it.
+Surfaces::Point Surfaces::point_on_plane(const Ray& ray, uint32_t primitive) const {
+  const Plane& plane = scene_.plane(primitive);
+  const glm::dvec3 &o = ray.line.origin, &d = ray.line.direction, normal = to_dvec(plane.normal);
+  Point p;
+  if (!meets(ray.line, plane, p.t)) p.t = 0;
+  p.position = o + d * p.t;
+  p.v[0] = p.position, p.edge1 = d * p.t;
+  p.geometric = normalize3(normal, glm::dvec3(0));
+  if (dot3(normal, o - to_dvec(plane.point)) < 0) p.geometric = -p.geometric;
+  p.normal = p.geometric;
+  p.move(ray);
   return p;
 }
 
@@ -85,6 +106,7 @@ Surfaces::Point Surfaces::point_on_sphere(const Ray& ray, uint32_t primitive) co
 // then back along the ray onto the plane (Igehy 1999, 10 to 12).
 Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const {
   if (scene_.is_sphere(primitive)) return point_on_sphere(ray, primitive);
+  if (scene_.is_plane(primitive)) return point_on_plane(ray, primitive);
   const Triangle& triangle = scene_.triangles[primitive];
   Point p;
   for (int k = 0; k < 3; ++k) p.v[k] = to_dvec(scene_.vertices[triangle.vertex[k]].position);
@@ -97,11 +119,7 @@ Surfaces::Point Surfaces::point_at(const Ray& ray, uint32_t primitive, const Nud
   p.position = p.v[0] + p.edge1 * p.weight[1] + p.edge2 * p.weight[2];
   p.geometric = normalize3(p.normal, glm::dvec3(0));
   if (dot3(p.geometric, s) < 0) p.geometric = -p.geometric;
-  const auto on_plane = [&](const glm::dvec3& origin_d, const glm::dvec3& direction_d) {
-    const glm::dvec3 moved = origin_d + direction_d * p.t;
-    return moved - d * (dot3(moved, p.normal) / dot3(d, p.normal));
-  };
-  p.position_dx = on_plane(ray.origin_dx, ray.direction_dx), p.position_dy = on_plane(ray.origin_dy, ray.direction_dy);
+  p.move(ray);
 
   const float *c0 = scene_.vertices[triangle.vertex[0]].uv, *c1 = scene_.vertices[triangle.vertex[1]].uv,
               *c2 = scene_.vertices[triangle.vertex[2]].uv;
@@ -128,6 +146,8 @@ bool Surfaces::culled(const Ray& ray, uint32_t primitive) const {
     const Sphere& sphere = scene_.sphere(primitive);
     return !meets(ray.line, to_dvec(sphere.center), sphere.radius, t) || !(t[0] > ray.t_min);
   }
+  if (scene_.is_plane(primitive))
+    return !(dot3(to_dvec(scene_.plane(primitive).normal), ray.line.origin - to_dvec(scene_.plane(primitive).point)) > 0);
   const Triangle& triangle = scene_.triangles[primitive];
   const glm::dvec3 v0 = to_dvec(scene_.vertices[triangle.vertex[0]].position);
   const glm::dvec3 n = cross3(to_dvec(scene_.vertices[triangle.vertex[1]].position) - v0,
@@ -164,7 +184,7 @@ bool Surfaces::stops(const Ray& ray, uint32_t primitive, double opacity) const {
 
 // Blended corner normals, all turned to the side of the ray as one.
 glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive) const {
-  if (scene_.is_sphere(primitive)) return point.geometric;
+  if (!scene_.is_triangle(primitive)) return point.geometric;
   glm::dvec3 sum(0), blend(0);
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 corner = to_dvec(scene_.vertices[scene_.triangles[primitive].vertex[k]].normal);
@@ -178,7 +198,7 @@ glm::dvec3 Surfaces::interpolated_normal(const Point& point, uint32_t primitive)
 // where it lies below them; kLiftShare of the way, as Phong tessellation goes (Boubekeur and Alexa 2008). Nothing for corners that agree, for what angles below 2^-16 would lift, and where the result is not above
 // the triangle.
 glm::dvec3 Surfaces::lift(const Point& point, uint32_t primitive, double clearance) const {
-  if (scene_.is_sphere(primitive)) return glm::dvec3(0);
+  if (!scene_.is_triangle(primitive)) return glm::dvec3(0);
   const Triangle& triangle = scene_.triangles[primitive];
   glm::dvec3 corner[3], sum(0), lift(0);
   for (int k = 0; k < 3; ++k) corner[k] = to_dvec(scene_.vertices[triangle.vertex[k]].normal), sum += corner[k];

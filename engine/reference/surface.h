@@ -1,4 +1,4 @@
-// From a ray and the triangle that it met to everything that light needs, in double.
+// From a ray and the primitive that it met to everything that light needs, in double.
 #pragma once
 #include "reference/texture.h"
 #include "reference/tree.h"
@@ -56,6 +56,7 @@ class Surfaces {
  private:
   struct Point;  // where the ray meets the plane of the triangle
   Point point_on_sphere(const Ray& ray, uint32_t primitive) const;
+  Point point_on_plane(const Ray& ray, uint32_t primitive) const;
   Point point_at(const Ray& ray, uint32_t primitive, const Nudge& nudge) const;
   glm::dvec3 interpolated_normal(const Point& point, uint32_t primitive) const;
   glm::dvec3 lift(const Point& point, uint32_t primitive, double clearance) const;

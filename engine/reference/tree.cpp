@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/coplanar.h"
+
 namespace spanray::reference {
 namespace {
 
@@ -70,6 +72,19 @@ bool meets(const Line& line, const glm::dvec3& center, double radius, double (&t
   return true;
 }
 
+bool meets(const Line& line, const Plane& plane, double& t) {
+  using Real = long double;
+  Real height = 0, slope = 0, most = 0;
+  for (int k = 0; k < 3; ++k) {
+    height += Real{plane.normal[k]} * (Real{line.origin[k]} - plane.point[k]), slope += Real{plane.normal[k]} * line.direction[k];
+    most = std::max(most, std::fabs(Real{line.direction[k]}));
+  }
+  if (height == 0 || slope == 0) return false;  // it starts on the plane, or runs along it
+  const Real at = -height / slope;
+  t = static_cast<double>(at);
+  return std::fabs(at) * most <= Real{1e30};
+}
+
 bool keeps(const Line& line, const glm::dvec3 (&v)[3]) {
   const Sheared s(line, v);
   int left = 0;
@@ -91,9 +106,19 @@ double Tree::Box::half_area() const {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-Tree::Tree(const SceneData& scene, const std::vector<uint32_t>& primitives) {
+bool Tree::shows_triangle(const Met& best, uint32_t plane, double t) const {
+  constexpr double kClose = 1e-3;  // only spares what follows
+  return best.primitive != kNoPrimitive && scene_.is_triangle(best.primitive) && best.t <= t * (1 + kClose) &&
+         lies_in(scene_, scene_.triangles[best.primitive], scene_.plane(plane));
+}
+
+Tree::Tree(const SceneData& scene, const std::vector<uint32_t>& primitives) : scene_(scene) {
   std::vector<Reference> list;
   for (const uint32_t primitive : primitives) {
+    if (scene.is_plane(primitive)) {
+      plane_.push_back(primitive);
+      continue;
+    }
     Reference r{{}, {}, primitive};
     if (scene.is_sphere(primitive)) {
       const Sphere& s = scene.sphere(primitive);

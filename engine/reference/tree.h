@@ -1,4 +1,4 @@
-// Which triangles and spheres does a ray meet? In double, one ray at a time.
+// Which triangles, spheres and planes does a ray meet? In double, one ray at a time.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -24,6 +24,9 @@ bool meets(const Line& line, const glm::dvec3 (&v)[3], double& t);
 //           (r - distance) (r + distance). In long double.
 bool meets(const Line& line, const glm::dvec3& center, double radius, double (&t)[2]);
 
+// Does it meet the plane, and at which t (of any sign, and as far away as planes reach: 1e30)? In long double.
+bool meets(const Line& line, const Plane& plane, double& t);
+
 // Of a line that meets the triangle: still, if it is moved sideways by as little as one likes, in a direction that is the same for all
 // triangles? Of those that share the edge or corner that it runs through, one says yes, if it crosses their surface there.
 bool keeps(const Line& line, const glm::dvec3 (&v)[3]);
@@ -34,13 +37,14 @@ struct Met {
 };
 
 // A bounding volume hierarchy over some primitives of a scene: binned surface area heuristic (Wald 2007), at most 4 triangles a
-// leaf. It only saves work: everything is decided by meets(), so the answers are those of asking every triangle.
+// leaf. It only saves work: everything is decided by meets(), so the answers are those of asking every primitive. Planes stand
+// beside it.
 class Tree {
  public:
-  Tree(const SceneData& scene, const std::vector<uint32_t>& primitives);
+  Tree(const SceneData& scene, const std::vector<uint32_t>& primitives);  // keeps the scene
 
-  // The least t in (t_min, t_max] that accept(primitive, t) takes; of equal ones the lowest id. accept is asked for candidates
-  // only.
+  // The least t in (t_min, t_max] that accept(primitive, t) takes; of equal ones the lowest id. Triangles that lie in a plane
+  // hide it, however t is rounded. accept is asked for candidates only.
   template <class Accept>
   Met closest(const Line& line, double t_min, double t_max, const Accept& accept) const {
     Met best;
@@ -50,6 +54,11 @@ class Tree {
       best = {t, primitive}, limit = t;
       return false;
     });
+    for_each_plane(line, t_max, [&](uint32_t primitive, double t) {
+      if (!(t > t_min) || t >= best.t || shows_triangle(best, primitive, t) || !accept(primitive, t)) return false;
+      best = {t, primitive};
+      return false;
+    });
     return best;
   }
   // Whether accept takes any hit in (t_min, t_max].
@@ -57,6 +66,7 @@ class Tree {
   bool any(const Line& line, double t_min, double t_max, const Accept& accept) const {
     bool found = false;
     walk(line, t_max, [&](const Item& item, double t, double&) { return found = t > t_min && accept(item.primitive, t); });
+    if (!found) for_each_plane(line, t_max, [&](uint32_t primitive, double t) { return found = t > t_min && accept(primitive, t); });
     return found;
   }
   // All hits in (t_min, t_max] that accept takes, in no order: layers, so that a hit on an edge counts once.
@@ -70,12 +80,12 @@ class Tree {
     return found;
   }
   // visit(primitive, v) for every triangle in a box that the region does not miss: misses(low, high). True ends the walk. Not
-  // for scenes with spheres.
+  // for scenes with spheres or planes.
   template <class Misses, class Visit>
   void visit_region(const Misses& misses, const Visit& visit) const {
     descend([&](const Box& box) { return !misses(box.low, box.high); }, [&](const Item& item) { return visit(item.primitive, item.v); });
   }
-  bool empty() const { return item_.empty(); }
+  bool empty() const { return item_.empty() && plane_.empty(); }
 
  private:
   struct Box {
@@ -135,6 +145,18 @@ class Tree {
             });
   }
 
+  // visit(primitive, t) for every plane that is met at t <= t_max; true ends it.
+  template <class Visit>
+  void for_each_plane(const Line& line, double t_max, const Visit& visit) const {
+    double t;
+    for (const uint32_t primitive : plane_)
+      if (meets(line, scene_.plane(primitive), t) && t <= t_max && visit(primitive, t)) return;
+  }
+  // Of a hit and one of a plane that is nearer: is that of a triangle which lies in the plane?
+  bool shows_triangle(const Met& best, uint32_t plane, double t) const;
+
+  const SceneData& scene_;
+  std::vector<uint32_t> plane_;  // primitives
   std::vector<Node> node_;
   std::vector<Item> item_;
 };

@@ -9,7 +9,7 @@ namespace {
 
 std::vector<uint32_t> primitives(const SceneData& scene, const Surfaces& surfaces, bool blended) {
   std::vector<uint32_t> list;
-  for (uint32_t i = 0; i < scene.triangles.size() + scene.spheres.size(); ++i)
+  for (uint32_t i = 0; i < scene.triangles.size() + scene.spheres.size() + scene.planes.size(); ++i)
     if ((surfaces.role(i) == Role::kBlended) == blended) list.push_back(i);
   return list;
 }

@@ -61,7 +61,7 @@ bool is_one_surface(const Frame& frame, const uint32_t (&primitive)[4]) {
   if (std::find(primitive, primitive + 4, kNoPrimitive) != primitive + 4) return false;
   if (all_equal(primitive)) return true;
   if (frame.settings.shading == Shading::kFlat) return false;  // each face has a light of its own
-  if (std::any_of(primitive, primitive + 4, [&](uint32_t p) { return frame.scene->is_sphere(p); })) return false;
+  if (std::any_of(primitive, primitive + 4, [&](uint32_t p) { return !frame.scene->is_triangle(p); })) return false;
   const Triangle& first = frame.scene->triangles[primitive[0]];
   return std::all_of(primitive + 1, primitive + 4, [&](uint32_t p) {
     const Triangle& other = frame.scene->triangles[p];

@@ -70,8 +70,9 @@ bool is_smooth(const SceneData& scene, const Triangle& t) {
 SceneUse find_scene_use(const SceneData& scene) {
   SceneUse use;
   use.material_used.assign(scene.materials.size(), false);
-  use.any_surface = !scene.triangles.empty() || !scene.spheres.empty();
+  use.any_surface = !scene.triangles.empty() || scene.has_exact();
   for (const Sphere& s : scene.spheres) use.material_used[s.material] = true;
+  for (const Plane& p : scene.planes) use.material_used[p.material] = true;
   for (const Triangle& t : scene.triangles) use.material_used[material_of(t)] = true;
   use.any_smooth = std::any_of(scene.triangles.begin(), scene.triangles.end(),
                                [&](const Triangle& t) { return is_smooth(scene, t); });
@@ -97,6 +98,8 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   if (!scene.spheres.empty())
     lines.add("spheres", true, "", 1,
               counted(scene.spheres.size(), "sphere", "spheres") + ": exact rays within bounds on the screen", "");
+  if (!scene.planes.empty())
+    lines.add("planes", true, "", 1, counted(scene.planes.size(), "plane", "planes") + ": exact rays up to the horizon", "");
   f.raster = lines.add("transform, clip, bin, raster", raster, "visibility is by rays", use.any_surface,
                        "visibility is by rasterization", "the scene has no triangle");
   f.primary_rays = lines.add("primary rays", !raster, "visibility is by rasterization", use.any_surface, "visibility is by rays",

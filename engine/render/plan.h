@@ -14,7 +14,7 @@ struct Plan {
   std::vector<PlanLine> lines;           // in the order of the frame
 };
 
-// What the triangles and spheres of a scene use, found once a scene: settings come later.
+// What the primitives of a scene use, found once a scene: settings come later.
 struct SceneUse {
   std::vector<bool> material_used;  // by any of them
   bool any_surface = false;

@@ -8,9 +8,9 @@
 
 #include "core/fp_env.h"
 #include "frame/primary_rays.h"
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "frame/transparency.h"
-#include "raster/spheres.h"
+#include "raster/exact.h"
 #include "ray/bvh_data.h"
 #include "ray/sweep.h"
 #include "ray/triangle_test.h"
@@ -60,8 +60,8 @@ RayBatch batch_of(std::span<const Ray> rays) {
 }
 
 // Without t_min, as the tracer sees it.
-SphereRay sphere_ray(const Ray& r) {
-  SphereRay ray;
+ExactRay exact_ray(const Ray& r) {
+  ExactRay ray;
   for (int k = 0; k < 3; ++k) ray.origin[k] = r.origin[k], ray.direction[k] = r.direction[k];
   ray.t_max = r.t_max;
   return ray;
@@ -144,32 +144,35 @@ struct SceneQuery::Impl {
     name.triangle = primitive;
     name.material_index = material_of(data, primitive);
     name.material = data.material_names[name.material_index];
-    name.sphere = data.is_sphere(primitive);
-    if (name.sphere) return name;
+    name.sphere = data.is_sphere(primitive), name.plane = data.is_plane(primitive);
+    if (!data.is_triangle(primitive)) return name;
     const auto next = std::upper_bound(data.parts.begin(), data.parts.end(), primitive,
                                        [](uint32_t p, const ScenePart& part) { return p < part.first; });
     name.object = data.part_names[(next - 1)->object], name.group = data.part_names[(next - 1)->group];
     return name;
   }
 
-  // The hit of a ray with a sphere that it is known to meet.
-  RayHit hit_of(const SphereRay& ray, uint32_t primitive) const {
-    const Sphere& sphere = scene.data().sphere(primitive);
-    const SphereHitAt at = first_hit(ray, sphere, primitive);
+  // The hit of a ray with an exact primitive that it is known to meet.
+  RayHit hit_of(const ExactRay& ray, uint32_t primitive) const {
+    const SceneData& data = scene.data();
+    const ExactHitAt at = first_hit(ray, data, primitive);
     RayHit hit;
-    hit.name = name_of(primitive);
-    hit.t = at.t, hit.front = at.entering;
-    hit.distance = hit.t * length3(ray.direction);
-    const glm::dvec3 center = center_of(sphere);
-    const glm::dvec3 normal = normalize3(ray.origin - center + ray.direction * hit.t, glm::dvec3(0, 1, 0));
-    store(normal, hit.normal);
-    store(center + normal * static_cast<double>(sphere.radius), hit.position);
+    hit.name = name_of(primitive), hit.t = at.t, hit.front = at.front, hit.distance = at.t * length3(ray.direction);
+    glm::dvec3 position = ray.origin + ray.direction * at.t, normal;
+    if (hit.name.plane) {
+      normal = normalize3(normal_of(data.plane(primitive)), glm::dvec3(0, 1, 0));
+    } else {
+      const glm::dvec3 center = center_of(data.sphere(primitive));
+      normal = normalize3(ray.origin - center + ray.direction * at.t, glm::dvec3(0, 1, 0));
+      position = center + normal * static_cast<double>(data.sphere(primitive).radius);
+    }
+    store(position, hit.position), store(normal, hit.normal);
     return hit;
   }
 
   // The hit of a ray that is known to meet a primitive.
   RayHit hit_of(const Ray& r, uint32_t primitive) const {
-    if (scene.data().is_sphere(primitive)) return hit_of(sphere_ray(r), primitive);
+    if (!scene.data().is_triangle(primitive)) return hit_of(exact_ray(r), primitive);
     const Triangle& triangle = scene.data().triangles[primitive];
     float corners[9];
     glm::dvec3 v[3];
@@ -195,16 +198,17 @@ struct SceneQuery::Impl {
     FragmentList list;
     trace_all(f, bvh, batch_of({&ray, 1}), HitsOnEdges::kOfAll, list);
     std::optional<RayHit> best;
-    SphereRay beyond = sphere_ray(ray);
-    beyond.t_min = std::nextafter(static_cast<double>(ray.t_min), -1.0);  // a hit at exactly t_min counts
-    const SphereMeeting met = bvh.data().spheres.closest(beyond);
-    if (met.primitive != kNoPrimitive) best = hit_of(beyond, met.primitive);
     for (const uint32_t primitive : list.primitive) {
       const RayHit hit = hit_of(ray, primitive);
       if (hit.t < static_cast<double>(ray.t_min)) continue;
       if (!best || hit.t < best->t || (hit.t == best->t && primitive < best->name.triangle)) best = hit;
     }
-    return best;
+    ExactRay beyond = exact_ray(ray);
+    beyond.t_min = std::nextafter(static_cast<double>(ray.t_min), -1.0);  // a hit at exactly t_min counts
+    const ExactMeeting met = bvh.data().exact.closest(beyond);
+    if (met.primitive == kNoPrimitive) return best;
+    if (best && shows_triangle(scene.data(), best->name.triangle, best->t, met.primitive, met.t)) return best;
+    return hit_of(beyond, met.primitive);
   }
 
   std::vector<std::optional<RayHit>> closest(const Frame& f, std::span<const Ray> rays) const {
@@ -288,17 +292,17 @@ Result<std::optional<RayHit>> SceneQuery::pixel(const Camera& camera, const Sett
     batch.primary = true, batch.pixel[0] = pack_pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
     uint32_t primitive = kNoPrimitive;
     trace_closest(frame, impl_->bvh, batch, &primitive);
-    SphereBins spheres;
     frame.grid = TileGrid(settings.width, settings.height);
-    if (!frame.scene->spheres.empty()) {
-      bin_spheres(frame, spheres);
+    if (frame.scene->has_exact()) {
+      ExactBins bins;
+      bin_exact(frame, bins);
       float depth = kUnknownDepth;
       const int tile = y / kTileSize * frame.grid.columns + x / kTileSize;
-      draw_spheres(frame, spheres, tile, 0, {{x, y, x + 1, y + 1}, 1, &primitive, &depth});
+      draw_exact(frame, bins, tile, 0, {{x, y, x + 1, y + 1}, 1, &primitive, &depth});
     }
     if (primitive == kNoPrimitive) return std::optional<RayHit>();
-    if (!frame.scene->is_sphere(primitive)) return std::optional<RayHit>(impl_->hit_of(ray, primitive));
-    const SphereRay exact = primary_sphere_ray(frame, x + frame.places.x[0], y + frame.places.y[0]);
+    if (frame.scene->is_triangle(primitive)) return std::optional<RayHit>(impl_->hit_of(ray, primitive));
+    const ExactRay exact = primary_exact_ray(frame, x + frame.places.x[0], y + frame.places.y[0]);
     RayHit hit = impl_->hit_of(exact, primitive);
     hit.t -= camera.near_plane, hit.distance = hit.t * length3(exact.direction);
     return std::optional<RayHit>(hit);

@@ -34,7 +34,7 @@ void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shadi
   const bool all = request.ladder != nullptr;
   plan.depths = all || plan.translucents || request.depth;
   plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
-  plan.views = all || plan.bounces || shading == Shading::kPhong || !scene.spheres.empty();
+  plan.views = all || plan.bounces || shading == Shading::kPhong || scene.has_exact();
   plan.normals = plan.views || request.normal;
 }
 
@@ -53,7 +53,7 @@ struct Renderer::Impl {
   ClusterFates fates;
   ScreenVertices vertices;
   TileBins bins;
-  SphereBins spheres;
+  ExactBins exact;
   std::vector<std::unique_ptr<TileWorker>> workers;
 
   void adopt(const Scene& new_scene, int threads) {
@@ -72,7 +72,7 @@ struct Renderer::Impl {
   const SceneData& standing() const { return posed ? posed->data() : scene.data(); }
 
   size_t memory_bytes() const {
-    size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + spheres.memory_bytes() + trees.memory_bytes();
+    size_t bytes = vertices.memory_bytes() + bins.memory_bytes() + exact.memory_bytes() + trees.memory_bytes();
     if (posed) bytes += posed->memory_bytes();
     if (clusters) bytes += clusters->memory_bytes() + fates.memory_bytes();
     for (const auto& w : workers) bytes += w->memory_bytes();
@@ -119,10 +119,10 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   } else {
     counts.triangles_in = scene.data().triangles.size();
   }
-  if (!scene.data().spheres.empty()) stats.ms.bin += timed_ms([&] { bin_spheres(frame, spheres); });
+  if (scene.data().has_exact()) stats.ms.bin += timed_ms([&] { bin_exact(frame, exact); });
   for (const auto& w : workers) w->counts = {}, w->clock.reset();
   const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), out, request,
-                     scene.data().spheres.empty() ? nullptr : &spheres};
+                     scene.data().has_exact() ? &exact : nullptr};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
   });
@@ -133,6 +133,8 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   counts.bvh_refits = followed.refits, counts.bvh_rebuilds = followed.rebuilds;
   add_worker_stats(workers, parallel->threads(), counts, stats);
   add_counts(counts, stats);
+  const bool traced = plan.flags.bvh || plan.flags.translucent_bvh;
+  stats.counts.emplace_back("bvh_levels", traced ? static_cast<uint64_t>(trees.levels()) : 0);
   stats.memory_bytes = memory_bytes();
   stats.isa = isa_name(frame.isa);
   stats.threads = parallel->threads();

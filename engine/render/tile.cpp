@@ -10,7 +10,7 @@
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
-#include "render/tile_spheres.h"
+#include "render/tile_exact.h"
 
 namespace spanray {
 namespace {
@@ -29,7 +29,7 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   } else if (job.frame.plan.primary_rays) {
     make_primary_batch(job.frame, level.pixel.data(), level.slots, 0, level.rays);
     trace_closest(job.frame, *job.opaque, level.rays, level.primitive.data());
-    if (job.spheres != nullptr) add_spheres(job, chunk, w, level);
+    if (job.exact != nullptr) add_exact(job, chunk, w, level);
     w.counts.rays_primary += static_cast<uint64_t>(level.slots);
   } else {
     std::fill_n(level.primitive.data(), level.slots, kNoPrimitive);
@@ -248,7 +248,7 @@ void see_tile(const FrameJob& job, int tile, TileWorker& w) {
     w.clock.enter(TileStage::kRaster);
     rasterize_tile(job.frame, *job.bins, tile, w.visible);
     w.counts.add(w.visible);
-    if (job.spheres != nullptr) w.counts.samples_passed += rasterize_spheres(job, tile, 0, w.visible);
+    if (job.exact != nullptr) w.counts.samples_passed += rasterize_exact(job, tile, 0, w.visible);
     w.fragments.clear();
     if (job.frame.plan.translucents) rasterize_translucent(job.frame, *job.bins, tile, w.visible, w.fragments);
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "frame/frame.h"
-#include "raster/spheres.h"
+#include "raster/exact.h"
 #include "ray/bvh.h"
 #include "render/coarse_quads.h"
 #include "render/hit_order.h"
@@ -81,7 +81,7 @@ struct FrameJob {
   const Bvh* translucent = nullptr;
   Framebuffer& out;
   const FrameRequest& request;
-  const SphereBins* spheres = nullptr;  // only if the scene has some
+  const ExactBins* exact = nullptr;  // only if the scene has exact primitives
 };
 
 // Finished pixels of a chunk, row by row: level 0 itself, or what resolve_samples made of it.

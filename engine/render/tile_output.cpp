@@ -23,7 +23,7 @@ void write_surfaces(const FrameJob& job, const Level& level, const Chunk& chunk)
     const size_t pixel = static_cast<size_t>(s.pixel[i] >> 16) * width + (s.pixel[i] & 0xffff);
     if (job.request.normal)
       for (size_t k = 0; k < 3; ++k) job.out.normal[3 * pixel + k] = s.normal[k][i];
-    if (scene.is_sphere(s.primitive[i])) continue;  // no texture coordinates: they stay 0
+    if (!scene.is_triangle(s.primitive[i])) continue;  // no texture coordinates: they stay 0
     const uint32_t* vertex = scene.triangles[s.primitive[i]].vertex;
     if (job.request.uv)
       for (size_t k = 0; k < 2; ++k)

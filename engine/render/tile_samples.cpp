@@ -8,7 +8,7 @@
 #include "frame/primary_rays.h"
 #include "raster/raster.h"
 #include "render/tile.h"
-#include "render/tile_spheres.h"
+#include "render/tile_exact.h"
 
 namespace spanray {
 namespace {
@@ -29,7 +29,7 @@ void trace_samples(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level
     make_primary_batch(job.frame, level.pixel.data(), chunk.pixels(), places.first() + s, seen.rays);
     seen.traced.resize(static_cast<size_t>(chunk.pixels()));
     trace_closest(job.frame, *job.opaque, seen.rays, seen.traced.data());
-    if (job.spheres != nullptr) add_spheres(job, chunk, places.first() + s, w, seen.traced.data());
+    if (job.exact != nullptr) add_exact(job, chunk, places.first() + s, w, seen.traced.data());
     w.counts.rays_primary += static_cast<uint64_t>(chunk.pixels());
     for (int y = chunk.y0; y < chunk.y1; ++y)
       std::copy_n(seen.traced.data() + (y - chunk.y0) * chunk.columns, chunk.columns,
@@ -199,7 +199,7 @@ void rasterize_samples(const FrameJob& job, int tile, TileWorker& w) {
   for (int s = 0; s < places.count; ++s) {
     rasterize_tile(job.frame, *job.bins, tile, w.visible, places.first() + s);
     w.counts.add(w.visible);
-    if (job.spheres != nullptr) w.counts.samples_passed += rasterize_spheres(job, tile, places.first() + s, w.visible);
+    if (job.exact != nullptr) w.counts.samples_passed += rasterize_exact(job, tile, places.first() + s, w.visible);
     std::copy_n(w.visible.primitive, kTilePixels, w.samples->primitive.data() + s * kSamplePlane);
     w.samples->fragments[s].clear();
     if (job.frame.plan.translucents)

@@ -11,7 +11,7 @@
 #include "render/check_request.h"
 #include "render/make_frame.h"
 #include "render/tile.h"
-#include "render/tile_spheres.h"
+#include "render/tile_exact.h"
 #include "render/trace_surface.h"
 #include "scene/pose.h"
 #include "shade/light.h"
@@ -57,7 +57,7 @@ class Tracer {
   Frame frame_;
   Bvh opaque_, translucent_;
   TileBins bins_;
-  SphereBins spheres_;
+  ExactBins exact_;
 };
 
 Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& settings, int x, int y)
@@ -71,14 +71,14 @@ Tracer::Tracer(const Scene& scene, const Camera& camera, const Settings& setting
   transform_vertices(frame_, vertices);
   clip_triangles(frame_, vertices, bins_, counts);
   bin_triangles(frame_, bins_);
-  bin_spheres(frame_, spheres_);
+  bin_exact(frame_, exact_);
 }
 
 uint32_t Tracer::raster_hit(int place, FragmentList& fragments, float& depth) {
   const auto visible = std::make_unique<TileHits>();
   parallel_.for_each(1, [&](size_t, int) {
     rasterize_tile(frame_, bins_, tile(), *visible, place);
-    rasterize_spheres(frame_, spheres_, tile(), place, *visible);
+    rasterize_exact(frame_, exact_, tile(), place, *visible);
     FragmentList all;
     if (frame_.plan.translucents) rasterize_translucent(frame_, bins_, tile(), *visible, all, place);
     for (size_t i = 0; i < all.pixel.size(); ++i) {
@@ -102,7 +102,7 @@ uint32_t Tracer::ray_hit(int place) const {
   primitive.assign(kLanePadding, kNoPrimitive);
   trace_closest(frame_, opaque_, rays, primitive.data());
   float depth = kUnknownDepth;
-  draw_spheres(frame_, spheres_, tile(), place, {{x_, y_, x_ + 1, y_ + 1}, 1, primitive.data(), &depth});
+  draw_exact(frame_, exact_, tile(), place, {{x_, y_, x_ + 1, y_ + 1}, 1, primitive.data(), &depth});
   return primitive[0];
 }
 
@@ -171,7 +171,7 @@ std::optional<Tracer::Slot> Tracer::find_quad(uint32_t& seen) {
   if (!frame_.plan.coarse_quads || x0 + 1 >= frame_.grid.width || y0 + 1 >= frame_.grid.height) return std::nullopt;
   Framebuffer out;
   const FrameRequest request;
-  const FrameJob job{frame_, frame_.plan.raster ? &bins_ : nullptr, &opaque_, &translucent_, out, request, &spheres_};
+  const FrameJob job{frame_, frame_.plan.raster ? &bins_ : nullptr, &opaque_, &translucent_, out, request, &exact_};
   const auto worker = std::make_unique<TileWorker>();
   Level level;
   parallel_.for_each(1, [&](size_t, int) {
@@ -201,7 +201,7 @@ std::vector<Tracer::Slot> Tracer::find_slots() {
   }
   Framebuffer out;
   const FrameRequest request;
-  const FrameJob job{frame_, by_ray ? nullptr : &bins_, &opaque_, &translucent_, out, request, &spheres_};
+  const FrameJob job{frame_, by_ray ? nullptr : &bins_, &opaque_, &translucent_, out, request, &exact_};
   TileWorker worker;
   Level level;
   parallel_.for_each(1, [&](size_t, int) {

@@ -78,7 +78,7 @@ SurfaceTrace trace_surface(const Frame& frame, const Bvh& opaque, const HitBatch
   copy3(s.normal, 0, trace.normal), copy3(s.view, 0, trace.view), copy3(s.lift, 0, trace.lift), copy3(s.dpdx, 0, trace.dpdx), copy3(s.dpdy, 0, trace.dpdy);
   copy3(s.ambient, 0, trace.ambient), copy3(s.diffuse, 0, trace.diffuse), copy3(s.specular, 0, trace.specular);
   copy3(s.emission, 0, trace.emission), copy3(s.mirror, 0, trace.mirror);
-  for (int j = 0; j < 3 && !frame.scene->is_sphere(trace.primitive); ++j)
+  for (int j = 0; j < 3 && frame.scene->is_triangle(trace.primitive); ++j)
     for (int k = 0; k < 2; ++k)
       trace.uv[k] += trace.weight[j] * frame.scene->vertices[frame.scene->triangles[trace.primitive].vertex[j]].uv[k];
   Radiance sum;

@@ -78,7 +78,7 @@ void take_scene_file(const SceneFile& file, const std::string& path, SceneData& 
 }
 
 void say_if_empty(const std::string& obj, const SceneData& scene, Messages& messages) {
-  if (scene.triangles.empty() && scene.spheres.empty())
+  if (scene.triangles.empty() && !scene.has_exact())
     messages.warn(obj, 0, "no triangles: the picture will show the background only");
 }
 
@@ -93,11 +93,11 @@ Result<void> load_scene_file(const std::string& path, const LoadOptions& options
   if (!obj) return Error{"obj: " + obj.error().message, path, file.value().obj_line};
   if (Result<void> loaded = load_obj(obj.value(), options, file.value().moving, file.value().instances, scene, messages);
       !loaded) return loaded;
-  if (Result<void> added = add_spheres(file.value().spheres, path, scene); !added) return added;
+  if (Result<void> added = add_exact(file.value().exact, path, scene); !added) return added;
   say_if_empty(obj.value(), scene, messages);
   take_scene_file(file.value(), path, scene, messages);
   if (Result<void> applied = apply_overrides(file.value(), path, scene, messages); !applied) return applied;
-  if (Result<void> checked = check_sphere_materials(file.value().spheres, path, scene); !checked) return checked;
+  if (Result<void> checked = check_exact_materials(file.value().exact, path, scene); !checked) return checked;
   complete(scene, file.value().lights.has_value(), path, options, messages);
   return {};
 }
@@ -121,6 +121,7 @@ Result<void> load_any(const std::string& path, const LoadOptions& options, Scene
 uint64_t Scene::hash() const { return data_->hash; }
 size_t Scene::triangle_count() const { return data_->triangles.size(); }
 size_t Scene::sphere_count() const { return data_->spheres.size(); }
+size_t Scene::plane_count() const { return data_->planes.size(); }
 size_t Scene::material_count() const { return data_->materials.size(); }
 size_t Scene::light_count() const { return data_->lights.size(); }
 const std::vector<Camera>& Scene::cameras() const { return data_->cameras; }

@@ -58,6 +58,13 @@ bool repair_corners(SoupTriangle& t, BuildReport& report) {
   return true;
 }
 
+void grow_bounds(const float (&low)[3], const float (&high)[3], bool first, SceneData& scene) {
+  for (int k = 0; k < 3; ++k) {
+    scene.bounds_min[k] = first ? low[k] : std::min(scene.bounds_min[k], low[k]);
+    scene.bounds_max[k] = first ? high[k] : std::max(scene.bounds_max[k], high[k]);
+  }
+}
+
 // Appends element `index` to the runs of its motion; motion: as in SoupTriangle.
 void add_to_runs(std::vector<MovingRun>& runs, uint32_t index, uint32_t motion) {
   if (motion == 0) return;
@@ -145,13 +152,24 @@ bool usable_sphere(const Sphere& s) {
 }
 
 void add_sphere(const Sphere& sphere, SceneData& scene) {
-  const bool first = scene.triangles.empty() && scene.spheres.empty();
-  for (int k = 0; k < 3; ++k) {
-    const float low = sphere.center[k] - sphere.radius, high = sphere.center[k] + sphere.radius;
-    scene.bounds_min[k] = first ? low : std::min(scene.bounds_min[k], low);
-    scene.bounds_max[k] = first ? high : std::max(scene.bounds_max[k], high);
-  }
+  float low[3], high[3];
+  for (int k = 0; k < 3; ++k) low[k] = sphere.center[k] - sphere.radius, high[k] = sphere.center[k] + sphere.radius;
+  grow_bounds(low, high, scene.triangles.empty() && scene.spheres.empty(), scene);
   scene.spheres.push_back(sphere);
+}
+
+bool set_normal(const glm::dvec3& direction, Plane& plane) {
+  const double most = std::max({std::fabs(direction.x), std::fabs(direction.y), std::fabs(direction.z)});
+  if (!(most > 0) || !std::isfinite(most)) return false;
+  int exponent = 0;
+  std::frexp(most, &exponent);
+  for (int k = 0; k < 3; ++k) plane.normal[k] = static_cast<float>(std::ldexp(direction[k], 1 - exponent)) + 0.0f;
+  return true;
+}
+
+void add_plane(const Plane& plane, SceneData& scene) {
+  if (scene.triangles.empty() && scene.spheres.empty()) grow_bounds(plane.point, plane.point, scene.planes.empty(), scene);
+  scene.planes.push_back(plane);
 }
 
 void hash_scene(SceneData& scene) {
@@ -166,6 +184,7 @@ void hash_scene(SceneData& scene) {
   if (scene.light_follows_eye) hash.add_word(1);
   if (!scene.motions.empty()) hash_motions(hash, scene);
   if (!scene.spheres.empty()) hash_vector(hash, scene.spheres);
+  if (!scene.planes.empty()) hash.add_word(0x706c616e65), hash_vector(hash, scene.planes);  // spheres of the same bytes are others
   hash.add(scene.ambient_radiance, sizeof scene.ambient_radiance).add(scene.background, sizeof scene.background);
   scene.hash = hash.value();
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "math/vec.h"
 #include "scene/scene_data.h"
 #include "spanray/result.h"
 
@@ -50,6 +51,14 @@ bool usable_sphere(const Sphere& sphere);
 
 // Adds a usable sphere, whose material is one of the scene's, behind all that is there; bounds grow. After build_geometry.
 void add_sphere(const Sphere& sphere, SceneData& scene);
+
+// Sets the normal of a plane: along a direction of any length, scaled by a power of two and rounded to float. False: it has no
+// length, or is not finite.
+bool set_normal(const glm::dvec3& direction, Plane& plane);
+
+// Adds a plane through a usable position, whose normal is set and whose material is one of the scene's, behind all that is there.
+// After all spheres. Bounds grow only if there are planes alone.
+void add_plane(const Plane& plane, SceneData& scene);
 
 // Computes scene.hash from all that can reach a pixel. Call last.
 void hash_scene(SceneData& scene);

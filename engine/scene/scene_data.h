@@ -43,6 +43,14 @@ struct Sphere {
   uint32_t material;
 };
 
+// A plane of [[plane]]: all p with dot(normal, p - point) = 0, exactly as the floats say. As a primitive, plane i has the number
+// triangles.size() + spheres.size() + i.
+struct Plane {
+  float point[3];
+  float normal[3];  // on the front side; of any length: its largest coordinate is 1 to below 2 in size
+  uint32_t material;
+};
+
 // How a material uses a texture: the options of its MTL line. Only 4-byte fields, so that lanes can gather them.
 struct TextureUse {
   int32_t texture = -1;          // index into SceneData::textures
@@ -140,8 +148,11 @@ struct SceneTables {
   // are copies (ray/bvh_instances.h). Ascending, none overlap, none moves.
   std::vector<InstancedPart> instanced_parts;
   std::vector<Instance> instances;
-  std::vector<Sphere> spheres;          // their materials are opaque, without maps; they stand still
-  float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};  // of all triangles and spheres; equal if there are none
+  // Exact primitives. Their materials are opaque, without maps; they stand still.
+  std::vector<Sphere> spheres;
+  std::vector<Plane> planes;
+  // Of all triangles and spheres; if there are none, of the points of planes; equal if there is nothing at all.
+  float bounds_min[3] = {0, 0, 0}, bounds_max[3] = {0, 0, 0};
   uint64_t hash = 0;                // of everything that can reach a pixel, taken after loading
 };
 
@@ -150,13 +161,19 @@ struct SceneData : SceneTables {
   AlignedBuffer<Triangle> triangles;
   AlignedBuffer<Texel> texels;
 
-  bool is_sphere(uint32_t primitive) const { return primitive >= triangles.size(); }  // of one that is there
+  // Of primitives that are there: kNoPrimitive is none of these.
+  bool is_triangle(uint32_t primitive) const { return primitive < triangles.size(); }
+  bool is_sphere(uint32_t primitive) const { return primitive - triangles.size() < spheres.size(); }
+  bool is_plane(uint32_t primitive) const { return primitive - triangles.size() - spheres.size() < planes.size(); }
   const Sphere& sphere(uint32_t primitive) const { return spheres[primitive - triangles.size()]; }
+  const Plane& plane(uint32_t primitive) const { return planes[primitive - triangles.size() - spheres.size()]; }
+  bool has_exact() const { return !spheres.empty() || !planes.empty(); }
 };
 
-// Of a primitive of either kind.
+// Of a primitive of any kind.
 inline uint32_t material_of(const SceneData& scene, uint32_t primitive) {
-  return scene.is_sphere(primitive) ? scene.sphere(primitive).material : material_of(scene.triangles[primitive]);
+  if (scene.is_triangle(primitive)) return material_of(scene.triangles[primitive]);
+  return scene.is_sphere(primitive) ? scene.sphere(primitive).material : scene.plane(primitive).material;
 }
 
 }  // namespace spanray

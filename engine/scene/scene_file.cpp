@@ -192,7 +192,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   if (!parsed) return parsed.error();
   TomlErrors errors(file);
   TomlTable root(parsed.value(), "", {"obj", "background", "ambient", "camera", "light", "path", "technique", "material", "moving",
-                  "instance", "template", "sphere"},
+                  "instance", "template", "sphere", "plane"},
                  errors);
   SceneFile scene;
   const SceneData defaults;
@@ -218,7 +218,7 @@ Result<SceneFile> parse_scene_file(std::string_view text, const std::string& fil
   read_moving(root, scene.moving, errors);
   scene.instances.file = file;
   read_instances(root, scene.instances, errors);
-  read_spheres(root, scene.spheres, errors);
+  read_exact(root, scene.exact, errors);
   if (errors.first()) return *errors.first();
   return scene;
 }

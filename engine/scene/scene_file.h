@@ -8,7 +8,7 @@
 #include "scene/instance_list.h"
 #include "scene/moving_parts.h"
 #include "scene/scene_data.h"
-#include "scene/scene_spheres.h"
+#include "scene/scene_exact.h"
 #include "scene/text_input.h"
 #include "spanray/result.h"
 
@@ -42,7 +42,7 @@ struct SceneFile {
   std::vector<MaterialOverride> materials;
   MovingParts moving;
   InstanceList instances;
-  std::vector<SceneSphere> spheres;
+  SceneExact exact;
   float background[3], ambient[3];
   Settings settings;
 };

@@ -26,13 +26,13 @@ void shade_light(const Frame& frame, const SurfaceBatch& surfaces, const HitBatc
   const int isa = isa_index(frame.isa);
   const bool by_triangle = surfaces.lights > 0 || frame.settings.shading == Shading::kGouraud;
   const ShadeLightFn shade = (by_triangle ? kShadeTriangleLight : kShadeLight)[isa];
-  if (frame.settings.shading == Shading::kPhong || surfaces.spheres.empty()) return shade(frame, surfaces, hits, light, lit, radiance);
-  // Triangles as the settings say, spheres by the normal at each pixel: the batch holds these, then those.
+  if (frame.settings.shading == Shading::kPhong || surfaces.exact.empty()) return shade(frame, surfaces, hits, light, lit, radiance);
+  // Triangles as the settings say, exact primitives by the normal at each pixel: the batch holds these, then those.
   const std::vector<uint32_t> valid(surfaces.valid, surfaces.valid + surfaces.count);
-  for (const int i : surfaces.spheres) surfaces.valid[i] = 0;
+  for (const int i : surfaces.exact) surfaces.valid[i] = 0;
   shade(frame, surfaces, hits, light, lit, radiance);
   std::fill_n(surfaces.valid, surfaces.count, 0u);
-  for (const int i : surfaces.spheres) surfaces.valid[i] = valid[static_cast<size_t>(i)];
+  for (const int i : surfaces.exact) surfaces.valid[i] = valid[static_cast<size_t>(i)];
   Frame phong = frame;
   phong.settings.shading = Shading::kPhong;
   kShadeLight[isa](phong, surfaces, hits, light, lit, radiance);

@@ -1,7 +1,7 @@
 // Hits -> surfaces: the two ways of resolving, then the material of either.
 #include <cstddef>
 
-#include "shade/sphere_surface.h"
+#include "shade/exact_surface.h"
 #include "shade/surface_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -245,7 +245,7 @@ const ResolveFn kResolve[kIsaCount] = SPANRAY_KERNEL_TABLE(resolve);
 
 void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   out.resize(hits.count, surface_fields(frame.plan), carry_light(frame, hits) ? static_cast<int>(frame.scene->lights.size()) : 0);
-  if (!frame.scene->spheres.empty()) return resolve_with_spheres(frame, hits, out);
+  if (frame.scene->has_exact()) return resolve_with_exact(frame, hits, out);
   kResolve[isa_index(frame.isa)](frame, hits, out);
 }
 

@@ -26,7 +26,7 @@ void SurfaceBatch::resize(int n, uint32_t written, int with_lights) {
 
   count = n, fields = written, lights = with_lights;
   plane_lanes = surface_lanes = {};
-  spheres.clear();
+  exact.clear();
   // One vector past count even where count fills its last one: kernels that start at any entry may run over by one vector.
   stride_ = (static_cast<size_t>(n) / kVectorWords + 2) * kVectorWords;
   const size_t stride = stride_;

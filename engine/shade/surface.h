@@ -35,7 +35,7 @@ struct SurfaceBatch {
   uint32_t *pixel, *ray, *primitive, *material;
   uint32_t* valid;             // 1, or 0 for a miss (all floats are then 0)
 
-  std::vector<int> spheres;    // entries that are hits of spheres
+  std::vector<int> exact;      // entries that are hits of exact primitives
   int lights = 0;              // that the surfaces carry (triangle_light): all of the scene's or none
   AlignedBuffer<float> planes;  // scratch of resolve_surfaces (shade/plane-inl.h)
 

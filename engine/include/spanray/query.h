@@ -20,10 +20,11 @@ struct Ray {
   float t_min = 0, t_max = std::numeric_limits<float>::infinity();  // hits at exactly these count; none at t = 0
 };
 
-// Which triangle or sphere. Names are those of the files, "" where they give none; they live as long as the scene.
+// Which triangle, sphere or plane. Names are those of the files, "" where they give none; they live as long as the scene.
 struct TriangleName {
-  uint32_t triangle = 0;  // index, as in Framebuffer::primitive: of sphere i, the number of triangles + i
+  uint32_t triangle = 0;  // index, as in Framebuffer::primitive: spheres come after all triangles, planes after all spheres
   bool sphere = false;    // it is one
+  bool plane = false;     // it is one
   uint32_t material_index = 0;
   std::string_view material, object, group;  // of MTL; of the OBJ's `o` and `g`
 };
@@ -33,7 +34,7 @@ struct RayHit {
   double t = 0;                 // in lengths of the ray's direction
   double distance = 0;          // world units from the ray's origin
   double position[3] = {0, 0, 0};
-  double normal[3] = {0, 0, 0};  // unit; of the triangle's plane, on its front side (counter-clockwise in the file), or outward
+  double normal[3] = {0, 0, 0};  // unit; of the triangle's plane, on its front side (counter-clockwise in the file), outward, or the plane's
   bool front = true;            // the ray comes from that side
 };
 
@@ -48,15 +49,15 @@ struct SweepHit {
   double time = 0;               // part of the way until the first contact, 0 to 1
   double distance = 0;           // world units that the center has gone until then
   double center[3] = {0, 0, 0};  // of the sphere then
-  double position[3] = {0, 0, 0};  // of the contact, on the triangle
+  double position[3] = {0, 0, 0};  // of the contact, on the surface
   double normal[3] = {0, 0, 0};  // unit, from the contact to the center
 };
 
 struct SphereTouch {
   TriangleName name;
-  double distance = 0;           // from the center to the triangle, 0 to the radius
-  double position[3] = {0, 0, 0};  // of the triangle's nearest point
-  double normal[3] = {0, 0, 0};  // unit, from there to the center; 0 if the center lies on the triangle
+  double distance = 0;           // from the center to the surface, 0 to the radius
+  double position[3] = {0, 0, 0};  // of its nearest point
+  double normal[3] = {0, 0, 0};  // unit, from there to the center; 0 if the center lies on the triangle or plane
 };
 
 struct QueryOptions {
@@ -91,13 +92,13 @@ class SceneQuery {
   // The scene stands as at rest, whatever the time.
   Result<std::optional<RayHit>> pixel(const Camera& camera, const Settings& frame, int x, int y) const;
 
-  // The first contact of a moving sphere with any triangle or sphere of the scene (a surface, too: it holds what is within);
+  // The first contact of a moving sphere with any triangle, sphere (a surface, too: it holds what is within) or plane of the scene;
   // cut-outs, screen-doors and panes are solid. Never later than the true contact: the sphere passes through nothing, however fast. A triangle that it touches at the start stops it only if it moves
   // towards it, so it can get out of walls; to slide along a wall of many triangles it must keep a hair's breadth (2^-30 of the
   // radius) away. A radius of 0 asks for the closest hit of the ray from start to end.
   // Errors: start and end coincide (ask touching()).
   Result<std::optional<SweepHit>> sweep(const SphereSweep& sphere) const;
-  // All triangles and spheres at most `radius` away from a point, nearest first.
+  // All triangles, spheres and planes at most `radius` away from a point, nearest first.
   Result<std::vector<SphereTouch>> touching(const double (&center)[3], double radius) const;
 
  private:

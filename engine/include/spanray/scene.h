@@ -22,6 +22,7 @@ class Scene {
   uint64_t hash() const;  // of all that can reach a pixel, taken after loading
   size_t triangle_count() const;
   size_t sphere_count() const;
+  size_t plane_count() const;
   size_t material_count() const;
   size_t light_count() const;
   const std::vector<Camera>& cameras() const;           // never empty

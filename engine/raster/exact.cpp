@@ -1,10 +1,10 @@
-#include "raster/spheres.h"
+#include "raster/exact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "frame/sphere_hit.h"
+#include "frame/exact_hit.h"
 #include "raster/depth_plane.h"
 
 namespace spanray {
@@ -74,10 +74,8 @@ void for_each_tile(const TileGrid& grid, const PixelBox& box, const Visit& visit
 
 float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
   if (primitive == kNoPrimitive) return 0;
-  if (frame.scene->is_sphere(primitive)) {
-    const double t = first_hit(primary_sphere_ray(frame, x, y), frame.scene->sphere(primitive), primitive).t;
-    return depth_of(frame, t);
-  }
+  if (!frame.scene->is_triangle(primitive))
+    return depth_of(frame, first_hit(primary_exact_ray(frame, x, y), *frame.scene, primitive).t);
   const Triangle& t = frame.scene->triangles[primitive];
   double view_depth[3];
   for (int i = 0; i < 3; ++i) {
@@ -88,7 +86,79 @@ float depth_at(const Frame& frame, uint32_t primitive, double x, double y) {
   return std::clamp(static_cast<float>(plane.depth0 + y * plane.dy + x * plane.dx), plane.min, plane.max);
 }
 
-void bin_spheres(const Frame& frame, SphereBins& bins) {
+namespace {
+
+PlaneOnScreen on_screen(const Frame& frame, const Plane& plane) {
+  const PrimaryRays& p = frame.primary;
+  const glm::dvec3 normal = normal_of(plane);
+  PlaneOnScreen seen;
+  seen.height = height_over(normal, point_of(plane), p.eye);
+  if (frame.settings.culling == Culling::kBack && seen.height < 0) seen.height = 0;
+  if (seen.height == 0) return seen;
+  const double scale = -p.near_plane / seen.height;
+  seen.depth0 = dot3(normal, p.corner) * scale, seen.dx = dot3(normal, p.step_x) * scale,
+  seen.dy = dot3(normal, p.step_y) * scale;
+  const double most = length3(p.corner) + length3(p.step_x) * p.width + length3(p.step_y) * p.height;
+  seen.margin = length3(normal) * most * std::fabs(scale) * 0x1p-40;
+  return seen;
+}
+
+// Shows a primitive at an entry of the target, if it is nearer than what is there. Returns how many samples passed.
+uint64_t show(const Frame& frame, uint32_t primitive, float depth, double x, double y, uint32_t& shown, float& before) {
+  constexpr float kClose = 1 - 0x1p-12f;  // depths of one place differ by far less
+  if (std::isnan(before)) before = depth_at(frame, shown, x, y);
+  if (depth < before || (depth == before && primitive > shown)) return 0;
+  const SceneData& scene = *frame.scene;
+  if (before > depth * kClose && scene.is_plane(primitive) && scene.is_triangle(shown) &&
+      lies_in(scene, scene.triangles[shown], scene.plane(primitive)))
+    return 0;
+  shown = primitive, before = depth;
+  return 1;
+}
+
+uint64_t draw_sphere(const Frame& frame, const ExactBins& bins, uint32_t index, int place, const ExactTarget& target) {
+  const SceneData& scene = *frame.scene;
+  const uint32_t primitive = static_cast<uint32_t>(scene.triangles.size()) + index;
+  const PixelBox &pixels = target.pixels, &box = bins.box[index];
+  uint64_t passed = 0;
+  for (int y = std::max(box.y0, pixels.y0); y < std::min(box.y1, pixels.y1); ++y)
+    for (int x = std::max(box.x0, pixels.x0); x < std::min(box.x1, pixels.x1); ++x) {
+      const int i = (y - pixels.y0) * target.stride + x - pixels.x0;
+      if (target.depth[i] > bins.depth[index]) continue;  // hidden; unknown depths are not greater than any
+      const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place];
+      const double t = first_hit(primary_exact_ray(frame, at_x, at_y), scene.spheres[index], primitive).t;
+      if (t != std::numeric_limits<double>::infinity())
+        passed += show(frame, primitive, depth_of(frame, t), at_x, at_y, target.primitive[i], target.depth[i]);
+    }
+  return passed;
+}
+
+uint64_t draw_plane(const Frame& frame, const PlaneOnScreen& seen, uint32_t index, int place, const ExactTarget& target) {
+  const SceneData& scene = *frame.scene;
+  const uint32_t primitive = static_cast<uint32_t>(scene.triangles.size() + scene.spheres.size()) + index;
+  const PixelBox& pixels = target.pixels;
+  const auto most_depth = [&](double x, double y) { return seen.depth(x, y) + seen.margin; };
+  const double most_on_left = std::max(most_depth(pixels.x0, pixels.y0), most_depth(pixels.x0, pixels.y1)),
+               most_on_right = std::max(most_depth(pixels.x1, pixels.y0), most_depth(pixels.x1, pixels.y1));
+  if (seen.height == 0 || !(std::max(most_on_left, most_on_right) > 0)) return 0;  // all beyond the horizon
+  uint64_t passed = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      const int i = (y - pixels.y0) * target.stride + x - pixels.x0;
+      const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place], most = most_depth(at_x, at_y);
+      if (!(most > 0) || static_cast<double>(target.depth[i]) > most * (1 + 0x1p-23)) continue;
+      const double t = first_hit(primary_exact_ray(frame, at_x, at_y), scene.planes[index], seen.height).t;
+      if (t != std::numeric_limits<double>::infinity())
+        passed += show(frame, primitive, depth_of(frame, t), at_x, at_y, target.primitive[i], target.depth[i]);
+    }
+  return passed;
+}
+
+}  // namespace
+
+void bin_exact(const Frame& frame, ExactBins& bins) {
+  bins.plane.clear();
+  for (const Plane& plane : frame.scene->planes) bins.plane.push_back(on_screen(frame, plane));
   const std::vector<Sphere>& spheres = frame.scene->spheres;
   bins.box.resize(spheres.size()), bins.depth.resize(spheres.size());
   bins.start.assign(static_cast<size_t>(frame.grid.count()) + 1, 0);
@@ -106,28 +176,12 @@ void bin_spheres(const Frame& frame, SphereBins& bins) {
               [&](uint32_t a, uint32_t b) { return bins.depth[a] != bins.depth[b] ? bins.depth[a] > bins.depth[b] : a < b; });
 }
 
-uint64_t draw_spheres(const Frame& frame, const SphereBins& bins, int tile, int place, const SphereTarget& target) {
-  const SceneData& scene = *frame.scene;
-  const PixelBox& pixels = target.pixels;
+uint64_t draw_exact(const Frame& frame, const ExactBins& bins, int tile, int place, const ExactTarget& target) {
   uint64_t passed = 0;
-  for (uint32_t k = bins.start[static_cast<size_t>(tile)]; k < bins.start[static_cast<size_t>(tile) + 1]; ++k) {
-    const uint32_t index = bins.sphere[k], primitive = static_cast<uint32_t>(scene.triangles.size()) + index;
-    const PixelBox& box = bins.box[index];
-    for (int y = std::max(box.y0, pixels.y0); y < std::min(box.y1, pixels.y1); ++y)
-      for (int x = std::max(box.x0, pixels.x0); x < std::min(box.x1, pixels.x1); ++x) {
-        const int i = (y - pixels.y0) * target.stride + x - pixels.x0;
-        float& before = target.depth[i];
-        if (before > bins.depth[index]) continue;  // hidden; unknown depths are not greater than any
-        const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place];
-        const double t = first_hit(primary_sphere_ray(frame, at_x, at_y), scene.spheres[index], primitive).t;
-        if (t == std::numeric_limits<double>::infinity()) continue;
-        const float depth = depth_of(frame, t);
-        if (std::isnan(before)) before = depth_at(frame, target.primitive[i], at_x, at_y);
-        if (depth < before || (depth == before && primitive > target.primitive[i])) continue;
-        target.primitive[i] = primitive, before = depth;
-        ++passed;
-      }
-  }
+  for (uint32_t k = bins.start[static_cast<size_t>(tile)]; k < bins.start[static_cast<size_t>(tile) + 1]; ++k)
+    passed += draw_sphere(frame, bins, bins.sphere[k], place, target);
+  for (size_t i = 0; i < bins.plane.size(); ++i)
+    passed += draw_plane(frame, bins.plane[i], static_cast<uint32_t>(i), place, target);
   return passed;
 }
 
