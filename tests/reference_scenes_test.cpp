@@ -71,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"glass", "glass", as_it_is, 0.002, 0.0002, 0.96}, Case{"hall", "hall", as_it_is, 0.002, 0.0002, 0.97},
         Case{"molecule", "molecule", as_it_is, 0.002, 0.0002, 0.97},
         Case{"molecule, from within", "molecule", as_it_is, 0.002, 0.0002, 0.97, 1},
+        Case{"henge", "henge", as_it_is, 0.002, 0.0002, 0.97}, Case{"henge, low", "henge", as_it_is, 0.002, 0.0002, 0.97, 1},
         Case{"hall, camera 1", "hall", as_it_is, 0.002, 0.0002, 0.97, 1},
         Case{"spheres, Gouraud", "spheres", [](Settings& s) { s.shading = Shading::kGouraud; }, 0.002, 0.0002, 0.96},
         Case{"columns, flat", "columns", [](Settings& s) { s.shading = Shading::kFlat; }, 0.002, 0.0002, 0.96},

@@ -9,7 +9,7 @@ namespace spanray::assets {
 
 std::map<std::string, SceneFiles> make_scenes() {
   return {{"cornell", make_cornell()}, {"spheres", make_spheres()}, {"columns", make_columns()}, {"gauze", make_gauze()}, {"glass", make_glass()}, {"hall", make_hall()},
-          {"molecule", make_molecule()}, {"orrery", make_orrery()}, {"dahlia", make_dahlia()}};
+          {"molecule", make_molecule()}, {"orrery", make_orrery()}, {"dahlia", make_dahlia()}, {"henge", make_henge()}};
 }
 
 std::map<std::string, Picture> make_textures() {

@@ -21,6 +21,7 @@ SceneFiles make_glass();
 SceneFiles make_molecule();
 SceneFiles make_orrery();
 SceneFiles make_dahlia();
+SceneFiles make_henge();
 
 // The gallery hall with about `triangles` (within 20 %; 10 thousand to 10 million).
 inline constexpr double kHallTriangles = 80e3;  // as shipped

@@ -46,6 +46,8 @@ inline std::vector<GoldenFrame> golden_frames() {
   add("molecule_rays", "molecule.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
   add("orrery_later_rays", "orrery.toml", 1, [](Settings& s) { s.time = 11.5, s.visibility = Visibility::kRay; });
   add("dahlia", "dahlia.toml", 0, all_on);
+  add("henge", "henge.toml", 0, all_on);
+  add("henge_rays", "henge.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay, s.shading = Shading::kGouraud; });
   add("dahlia_rays", "dahlia.toml", 1, [](Settings& s) { s.visibility = Visibility::kRay; });
   const auto samples = [](int count, Antialiasing mode) {
     return [=](Settings& s) { s.width = 160, s.height = 90, s.samples = count, s.antialiasing = mode; };
@@ -67,6 +69,12 @@ inline std::vector<GoldenFrame> golden_frames() {
   });
   add("spheres_fast", "spheres.toml", 0, [](Settings& s) { s.normals = Normals::kInterpolated, s.powers = Powers::kFast; });
   add("columns_fast_gouraud", "columns.toml", 0, [](Settings& s) { s.shading = Shading::kGouraud, s.powers = Powers::kFast; });
+  add("molecule_samples", "molecule.toml", 0, samples(4, Antialiasing::kMultisample));
+  add("molecule_quads", "molecule.toml", 0, [](Settings& s) { s.shading_rate = ShadingRate::k2x2; });
+  add("henge_samples", "henge.toml", 0, samples(4, Antialiasing::kMultisample));
+  add("henge_quads_rays", "henge.toml", 0, [](Settings& s) {
+    s.width = 197, s.height = 131, s.visibility = Visibility::kRay, s.shading_rate = ShadingRate::k2x2;
+  });
   const auto lifted = [](Settings& s) { s.shadow_terminator = ShadowTerminator::kLifted; };
   add("hall_lifted", "hall.toml", 0, lifted);
   add("columns_lifted_gouraud_rays", "columns.toml", 0, [=](Settings& s) {
