@@ -13,7 +13,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/../engine/catalog/catalog.cmake)
 # The sources that read the catalog of reflectances (tests/catalog_build_test.cpp holds this list to be all of them).
 function(spanray_formula_sources out)
   set(${out} catalog/catalog.cpp shade/light_kernel.cpp shade/triangle_light_kernel.cpp shade/light_rays_kernel.cpp
-      shade/resolve_kernel.cpp PARENT_SCOPE)
+      shade/resolve_kernel.cpp shade/direct_kernel.cpp PARENT_SCOPE)
 endfunction()
 
 function(spanray_add_formula target)

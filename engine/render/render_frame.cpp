@@ -36,6 +36,7 @@ void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shadi
   plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
   plan.views = all || plan.bounces || shading == Shading::kPhong || scene.has_exact();
   plan.normals = plan.views || request.normal;
+  plan.surfaces = all || request.normal || request.uv;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "render/tile_light.h"
 #include "render/tile_output.h"
 #include "render/tile_exact.h"
+#include "shade/direct.h"
 
 namespace spanray {
 namespace {
@@ -106,9 +107,27 @@ void count_lanes(const Frame& frame, const SurfaceBatch& surfaces, FrameCounts& 
   counts.plane_lanes.add(surfaces.plane_lanes), counts.surface_lanes.add(surfaces.surface_lanes);
 }
 
+// Level 0 where no surface need be stored: its slots are the hits, among them those that are none.
+void shade_slots(const FrameJob& job, TileWorker& w, Level& level) {
+  AlignedBuffer<uint32_t>& place = level.shading_place.empty() ? level.place : level.shading_place;
+  HitBatch& hits = level.hits;
+  const auto lend = [&] { hits.primitive.swap(level.primitive), hits.pixel.swap(level.pixel), hits.place.swap(place); };
+  hits.rays = nullptr, hits.count = level.slots, hits.place.clear();
+  for (auto& channel : w.radiance) channel.resize(static_cast<size_t>(level.slots) + 64);  // whole vectors are written
+  float* const radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
+  lend();
+  const DirectCounts counts = shade_direct(job.frame, hits, level.surfaces.planes, radiance);
+  lend();
+  for (int c = 0; c < 3; ++c) std::swap(level.radiance[c], w.radiance[c]);
+  hits.count = counts.hits;
+  w.counts.plane_lanes.add(counts.plane_lanes), w.counts.surface_lanes.add(counts.surface_lanes);
+  if (job.frame.plan.lit_vertices) w.counts.vertices_lit += 3 * counts.plane_lanes.used;
+}
+
 // Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others.
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
   w.clock.enter(TileStage::kShade);
+  if (can_shade_direct(job.frame)) return shade_slots(job, w, level);
   compact_hits(w, level, primary);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   count_lanes(job.frame, level.surfaces, w.counts);

@@ -35,7 +35,7 @@ inline constexpr float kMostLift = 0x1p100f;  // world units: starts of rays sta
   const auto field = [&](int j, int k) HWY_ATTR {
     return V3f{t.vertex[j].real(vertices, k), t.vertex[j].real(vertices, k + 1), t.vertex[j].real(vertices, k + 2)};
   };
-  const Group g{frame, out, at, hits.valid, {}};
+  const Group g{{frame, hits.valid, {}}, out, at};
   const V3f position = get(g, out.position), geometric = get(g, out.geometric_normal), weights = get(g, out.weight);
   const F32 weight[3] = {weights.x, weights.y, weights.z}, error = F32::load(out.position_error + at), zero = F32::zero();
   const V3f normal[3] = {field(0, 3), field(1, 3), field(2, 3)};

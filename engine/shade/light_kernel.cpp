@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/light_kernel.cpp"
 #include "hwy/foreach_target.h"
-#include "shade/triangle_light-inl.h"
+#include "shade/surface_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -37,49 +37,64 @@ void shade_ambient_kernel(const Frame& frame, const SurfaceBatch& s, float* cons
 // Input:    surfaces, the bits of those that the light reaches; plan.specular off: Ks is not read.
 // Contract: a surface whose geometric normal does not face the light gets nothing, but by lifted rays. Entries are independent: equal bits
 //           for every split of the batch. Against double: within 1/255 after encoding (tests/shade_light_test.cpp).
-template <class Kind>
-void add_light(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light_index, const uint32_t* lit,
-               float* const radiance[3]) {
-  const SceneData& scene = *frame.scene;
-  const Light& light = light_of(frame, light_index);
-  const LightLanes lanes = broadcast_light(light);
-  const bool flat = frame.settings.shading == Shading::kFlat;
-  for (int i = 0; i < s.count; i += kLanes) {
-    Mask active = active_lanes(s, i, lit);
-    if (!any(active)) continue;
-    Site site = {load3(s.position, i), load3(s.normal, i), load3(s.view, i)};
-    Incidence incidence = Kind::incidence(lanes, site.position);
-    active = active & reached(frame, s, i, incidence, lit);
-    if (!any(active)) continue;
-    if (flat) {
-      const I32 primitive = select(active, I32::load(s.primitive + i), I32::zero());
-      site = face_site(scene, primitive, load3(s.geometric_normal, i), viewer_of(frame, s, hits, active, i));
-      incidence = Kind::incidence(lanes, site.position);
-    }
-    const F32 n_l = formula::dot(site.normal, incidence.direction);
-    active = active & (n_l > F32::zero());
-    if (!any(active)) continue;
+template <class Kind> class AddLight {
+ public:
+  AddLight(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const Light& light, const uint32_t* lit, float* const radiance[3])
+      : frame_(frame), s_(s), hits_(hits), light_(light), lanes_(broadcast_light(light)), lit_(lit), radiance_(radiance) {}
 
-    bool specular = frame.plan.specular;
-    if (specular) {
-      const F32 brightest = max_(max_(F32::load(s.specular[0] + i), F32::load(s.specular[1] + i)), F32::load(s.specular[2] + i));
-      specular = any(active & (brightest > F32::zero()));  // 0 * specular adds nothing: the bits are the same
+  void all() {
+    constexpr int kTogether = 16;
+    Met met[kTogether];
+    for (int i = 0; i < s_.count;) {
+      int n = 0;
+      for (; n < kTogether && i < s_.count; i += kLanes) n += meet(i, met[n]);
+      for (int k = 0; k < n; ++k) reflect(met[k]);
     }
-    const I32 material = select(active, I32::load(s.material + i), I32::zero());
-    const I32 model = reflectance_models(scene, material);
-    accumulate(s, i, active, light, light_site(frame, site, incidence, n_l, F32::load(s.shininess + i), model, active, specular), specular,
-               radiance);
   }
-}
+
+ private:
+  HWY_INLINE Site site_of(int i, Mask active) const {
+    if (frame_.settings.shading != Shading::kFlat) return {load3(s_.position, i), load3(s_.normal, i), load3(s_.view, i)};
+    const I32 primitive = select(active, I32::load(s_.primitive + i), I32::zero());
+    return face_site(*frame_.scene, primitive, load3(s_.geometric_normal, i), viewer_of(frame_, s_, hits_, active, i));
+  }
+
+  HWY_INLINE bool meet(int i, Met& met) const {
+    Mask active = active_lanes(s_, i, lit_);
+    if (!any(active)) return false;
+    Incidence incidence = Kind::incidence(lanes_, load3(s_.position, i));
+    active = active & reached(frame_, s_, i, incidence, lit_);
+    if (!any(active)) return false;
+    const Site site = site_of(i, active);
+    if (frame_.settings.shading == Shading::kFlat) incidence = Kind::incidence(lanes_, site.position);
+    const auto highlight = [&]() HWY_ATTR {
+      return max_(max_(F32::load(s_.specular[0] + i), F32::load(s_.specular[1] + i)), F32::load(s_.specular[2] + i));
+    };
+    met.at = i;
+    return meet_light(frame_, site, incidence, active, highlight, met);
+  }
+
+  HWY_INLINE void reflect(const Met& met) const {
+    const Site site = site_of(met.at, met.active);
+    const Reflected factor = reflect_light(frame_, site, Kind::incidence(lanes_, site.position).direction, met, I32::load(s_.material + met.at),
+                                           F32::load(s_.shininess + met.at));
+    accumulate(s_, met.at, met.active, light_, factor, met.specular, radiance_);
+  }
+
+  const Frame& frame_;
+  const SurfaceBatch& s_;
+  const HitBatch& hits_;
+  const Light& light_;
+  const LightLanes lanes_;
+  const uint32_t* const lit_;
+  float* const* const radiance_;
+};
 
 void shade_light_kernel(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light, const uint32_t* lit,
                         float* const radiance[3]) {
-  switch (light_of(frame, light).kind) {
-#define SPANRAY_CATALOG_ENTRY(index, name) \
-  case index: return add_light<LightKind_##name>(frame, s, hits, light, lit, radiance);
-#include "catalog_lights_list.inc"
-#undef SPANRAY_CATALOG_ENTRY
-  }
+  with_kind(light_of(frame, light), [&](auto kind) HWY_ATTR {
+    AddLight<decltype(kind)>(frame, s, hits, light_of(frame, light), lit, radiance).all();
+  });
 }
 
 }  // namespace

@@ -142,22 +142,26 @@ HWY_INLINE Mask reached(const Frame& frame, const SurfaceBatch& s, int i, const 
   return in_front(s, i, incidence) | in_front_lifted(s, i, incidence);
 }
 
-// radiance[c] += intensity_c * (Kd_c * diffuse + Ks_c * specular) in the active lanes; other entries are not written.
+// radiance + intensity * (Kd * diffuse + Ks * specular) in the active lanes, of one channel.
+HWY_INLINE F32 plus_light(F32 radiance, Mask active, float intensity, const Reflected& factor, F32 diffuse, F32 highlight, bool specular) {
+  F32 reflected = diffuse * factor.diffuse;
+  if (specular) reflected = mul_add(highlight, factor.specular, reflected);
+  return select(active, mul_add(f32(intensity), reflected, radiance), radiance);
+}
+
+// plus_light of all channels of stored surfaces; other entries are not written.
 HWY_INLINE void accumulate(const SurfaceBatch& s, int i, Mask active, const Light& light, const Reflected& factor,
                            bool specular, float* const radiance[3]) {
   const bool whole = i + kLanes <= s.count;
   for (int c = 0; c < 3; ++c) {
-    F32 reflected = F32::load(s.diffuse[c] + i) * factor.diffuse;
-    if (specular) reflected = mul_add(F32::load(s.specular[c] + i), factor.specular, reflected);
     float* const out = radiance[c] + i;
+    const F32 diffuse = F32::load(s.diffuse[c] + i), highlight = F32::load(s.specular[c] + i);
     if (whole) {
-      const F32 before = F32::load(out);
-      select(active, mul_add(f32(light.intensity[c]), reflected, before), before).store(out);
+      plus_light(F32::load(out), active, light.intensity[c], factor, diffuse, highlight, specular).store(out);
     } else {  // the caller's arrays need not be padded
       float lanes[kLanes] = {};
       for (int k = 0; i + k < s.count; ++k) lanes[k] = out[k];
-      const F32 before = F32::load(lanes);
-      select(active, mul_add(f32(light.intensity[c]), reflected, before), before).store(lanes);
+      plus_light(F32::load(lanes), active, light.intensity[c], factor, diffuse, highlight, specular).store(lanes);
       for (int k = 0; i + k < s.count; ++k) out[k] = lanes[k];
     }
   }

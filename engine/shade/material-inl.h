@@ -21,7 +21,7 @@ inline constexpr MapSlot kAmbientSlot{SPANRAY_WORD(map_ambient), kMapAmbient}, k
     kEmissionSlot{SPANRAY_WORD(map_emission), kMapEmission}, kOpacitySlot{SPANRAY_WORD(map_opacity), kMapOpacity};
 
 // visit(map lanes, raw sample) if some lane has a map of this kind.
-template <int kChannels, class Visit> HWY_INLINE void sample_map(const Group& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
+template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
   if ((g.frame.plan.maps & slot.bit) == 0) return;
   const SceneData& scene = *g.frame.scene;
   const I32 map = material_map(g, slot.word);
@@ -41,7 +41,7 @@ HWY_INLINE void modulate(Mask active, F32& value, F32 map, float most) {
 }
 
 // Diffuse and ambient share map_Kd unless there is a map_Ka. Specular and mirror share map_Ks: the mirror weight comes from Ks.
-HWY_INLINE void modulate_colors(const Group& g, const UvLanes& uv, MaterialLanes& m) {
+HWY_INLINE void modulate_colors(const Materials& g, const UvLanes& uv, MaterialLanes& m) {
   const SceneData& scene = *g.frame.scene;
   const PlanFlags& plan = g.frame.plan;
   sample_map<3>(g, uv, kDiffuseSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
@@ -65,7 +65,7 @@ HWY_INLINE void modulate_colors(const Group& g, const UvLanes& uv, MaterialLanes
     });
 }
 
-HWY_INLINE V3f bumped_normal(const Group& g, const UvLanes& uv, V3f normal) {
+HWY_INLINE V3f bumped_normal(const Materials& g, const UvLanes& uv, V3f normal) {
   const SceneData& scene = *g.frame.scene;
   const I32 heights = material_map(g, SPANRAY_WORD(map_bump)), normals = material_map(g, SPANRAY_WORD(map_normal));
   const Filter filter = g.frame.settings.filter;
@@ -77,7 +77,7 @@ HWY_INLINE V3f bumped_normal(const Group& g, const UvLanes& uv, V3f normal) {
 }
 
 // What the maps do to the constants of the materials.
-HWY_INLINE void apply_maps(const Group& g, const UvLanes& uv, MaterialLanes& m) {
+HWY_INLINE void apply_maps(const Materials& g, const UvLanes& uv, MaterialLanes& m) {
   const SceneData& scene = *g.frame.scene;
   const PlanFlags& plan = g.frame.plan;
   if (plan.textures) modulate_colors(g, uv, m);

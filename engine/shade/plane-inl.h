@@ -31,7 +31,8 @@ enum PlaneFloat : int {
   kPlaneError = 46,                      // what the size of the triangle adds to position_error, and what each pixel from the anchor
   kPlaneMaterial = 49,                   // bits of the index
   kPlaneSlimness = 50,                   // the inverse of the triangle's smallest height
-  kPlaneFloatCount = 51,
+  kPlaneInside = 51,                     // not 0: all pixels of the cell lie inside the triangle, clear of its edges (cell_inside)
+  kPlaneFloatCount = 52,
   kPlaneLight = kPlaneFloatCount  // of each light diffuse and specular, of the face, or (Gouraud) diffuse of the three corners, then specular
 };
 enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlaneRealCount = 3 };
@@ -55,10 +56,12 @@ struct PlaneBlock {
   int fields;  // kPlaneFloatCount and those of light
   int planes = 0;
 
-  PlaneBlock(AlignedBuffer<float>& memory, int light_fields) : fields(kPlaneFloatCount + light_fields) {
-    memory.resize(static_cast<size_t>(kPlaneHits) * static_cast<size_t>(fields));
+  // spare: floats behind the planes, for the caller.
+  PlaneBlock(AlignedBuffer<float>& memory, int light_fields, int spare = 0) : fields(kPlaneFloatCount + light_fields) {
+    memory.resize(static_cast<size_t>(kPlaneHits) * static_cast<size_t>(fields) + static_cast<size_t>(spare));
     single = memory.data();
   }
+  float* spare() { return single + static_cast<size_t>(kPlaneHits) * static_cast<size_t>(fields); }
 
   double* reals(int plane) { return real + plane / kPlaneLine * (kPlaneLine * kPlaneRealCount) + plane % kPlaneLine; }
   float* singles(int plane) { return single + plane / kPlaneLine * (kPlaneLine * fields) + plane % kPlaneLine; }
@@ -74,7 +77,10 @@ HWY_INLINE V3d along_rays(const PrimaryRays& p, const V3d& c) {
   return {dot(broadcast(p.corner), c), dot(broadcast(p.step_x), c), dot(broadcast(p.step_y), c)};
 }
 
-struct AnchorLanes { I32 x, y; };
+struct AnchorLanes {
+  I32 x, y;
+  Mask covers;  // the triangle's box in the picture covers the cell
+};
 
 // The corner nearest to the eye, on the triangle's plane, of the part of the cell that the triangle's box in the picture meets; of the
 // whole cell if a vertex is not in front of the eye. There s is largest, so it is at most 1 for the hits, and no digits are lost.
@@ -92,13 +98,16 @@ HWY_INLINE AnchorLanes choose_anchor(const PrimaryRays& p, const TriangleLanes& 
     low_x = min_(low_x, select(front, x, -far)), high_x = max_(high_x, select(front, x, far));
     low_y = min_(low_y, select(front, y, -far)), high_y = max_(high_y, select(front, y, far));
   }
+  Mask covers = first_lanes(kLanes);
   const auto corner = [&](F32 low, F32 high, I32 first, Mask nearer) HWY_ATTR {
     const I32 last = first + i32(kCellSize);
     const I32 a = floor_i32_small(clamp_(low, -far, far)), b = floor_i32_small(clamp_(high, -far, far)) + i32(1);
+    covers = and_not(a > first, covers) & !(last > b);
     const I32 inside = select(nearer, b, a);
     return min_(max_(inside, first), last);
   };
-  return {corner(low_x, high_x, cell & i32(0xffff), nearer_x), corner(low_y, high_y, shift_right_logical<16>(cell), nearer_y)};
+  const I32 x = corner(low_x, high_x, cell & i32(0xffff), nearer_x), y = corner(low_y, high_y, shift_right_logical<16>(cell), nearer_y);
+  return {x, y, covers};
 }
 
 // value + per_x dx + per_y dy of what the weights interpolate, from the same of the weights.
@@ -108,6 +117,28 @@ struct WeightPlanes {
   HWY_INLINE F64 per_x(F64 d1, F64 d2) const { return b1_x * d1 + b2_x * d2; }
   HWY_INLINE F64 per_y(F64 d1, F64 d2) const { return b1_y * d1 + b2_y * d2; }
 };
+
+// Where each place of the whole cell looks at the triangle, farther from its edges than any margin of primary_point(), which then need
+// not be computed: that decides nothing but time. From the anchor, an edge function times s is linear: least at a corner of the cell.
+// error, reach: kPlaneError of these planes.
+// Contract: conservative. No weight errs by more than kRoom / 4 where s > kLeastStep: its terms are at most 1 / kLeastStep.
+HWY_INLINE Mask cell_inside(const WeightPlanes& w, const TriangleLanes& t, F64 step_x, F64 step_y, const AnchorLanes& anchor, I32 cell, F32 error,
+                            F32 reach, F32 slimness) {
+  constexpr double kHalf = kCellSize / 2.0, kLeastStep = 0.25, kRoom = 0x1p-16;
+  const F64 x = to_f64((cell & i32(0xffff)) - anchor.x) + f64(kHalf), y = to_f64(shift_right_logical<16>(cell) - anchor.y) + f64(kHalf);
+  const auto least = [&](F64 at_anchor, F64 per_x, F64 per_y) HWY_ATTR {
+    return at_anchor + x * per_x + y * per_y - f64(kHalf) * (abs_(per_x) + abs_(per_y));
+  };
+  const F32 size = max_(max_abs(to_f32(t.v0)), max_(max_abs(to_f32(t.v1)), max_abs(to_f32(t.v2))));
+  const F32 most_error = mul_add(size + size, f32(kPositionRounding), reach * f32(static_cast<float>(kCellSize / kLeastStep))) + error;
+  const F64 margin = to_f64(most_error * slimness) * f64(2.0) + f64(kRoom);  // more than the margin of any pixel
+  const auto clear = [&](F64 b, F64 per_x, F64 per_y) HWY_ATTR {
+    const F64 above = b - margin;
+    return least(above, per_x + above * step_x, per_y + above * step_y) > f64(0.0);
+  };
+  return (least(f64(1.0), step_x, step_y) > f64(kLeastStep)) & clear(w.b1, w.b1_x, w.b1_y) & clear(w.b2, w.b2_x, w.b2_y) &
+         clear(f64(1.0) - w.b1 - w.b2, -(w.b1_x + w.b2_x), -(w.b1_y + w.b2_y)) & (most_error < f32(0x1p99f));
+}
 
 HWY_INLINE void store_attribute(float* out, int field, const WeightPlanes& w, const V3d& v0, const V3d& d1, const V3d& d2) {
   const auto component = [&](int k, F64 a, F64 b, F64 c) HWY_ATTR {
@@ -171,7 +202,7 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
 // kLanes planes from entry `at` on.
 // Source:   Olano and Greer 1997 (resolve-inl.h): the edge functions e of a primary ray are linear in the pixel. With s = sum(e) /
 //           sum(e at the anchor), b(pixel) - b(anchor) = (dx (e_x / sum - b s_x) + dy (e_y / sum - b s_y)) / s.
-void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
+[[maybe_unused]] static void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
   const SceneData& scene = *frame.scene;
   const PrimaryRays& p = frame.primary;
   const HitLanes hits{nullptr, i32(0), i32(0), I32::load(block.primitive + at), first_lanes(kLanes), false, block.primitive[at]};
@@ -221,10 +252,18 @@ void set_up_planes(const Frame& frame, PlaneBlock& block, int at) {
     store_attribute(out, kPlaneNormal, w, to_f64(n.n0), to_f64(n.d1), to_f64(n.d2));
   }
   const auto reach = [&](F64 b1, F64 b2) HWY_ATTR { return max_abs(to_f32(side1 * b1 + side2 * b2)) * f32(kReachRounding); };
-  store_plane(out, kPlaneError, V3f{size_error(t, from_eye, side1, side2), reach(w.b1_x, w.b2_x), reach(w.b1_y, w.b2_y)});
+  const V3f error{size_error(t, from_eye, side1, side2), reach(w.b1_x, w.b2_x), reach(w.b1_y, w.b2_y)};
+  store_plane(out, kPlaneError, error);
   const V3d side3 = side2 - side1;
   const F64 longest = max_(dot(side3, side3), max_(dot(side1, side1), dot(side2, side2)));
-  store_plane(out, kPlaneSlimness, to_f32(sqrt_(longest / dot(normal, normal))));  // without area: not finite, never good
+  const F32 slimness = to_f32(sqrt_(longest / dot(normal, normal)));  // without area: not finite, never good
+  store_plane(out, kPlaneSlimness, slimness);
+  F32 inside = F32::zero();
+  if (any(anchor.covers)) {
+    const Mask whole = anchor.covers & cell_inside(w, t, step_x, step_y, anchor, I32::load(block.cell + at), error.x, error.y + error.z, slimness);
+    inside = select(whole & (dot(geometric, geometric) > F32::zero()), f32(1.0f), inside);
+  }
+  store_plane(out, kPlaneInside, inside);
   store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
 }
 
@@ -263,28 +302,31 @@ HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
 }
 
 // The planes of up to kPlaneHits hits from `at` on; misses and spheres have none.
-void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
+[[maybe_unused]] static void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   const SceneData& scene = *frame.scene;
   PlaneFinder finder(block, scene.triangles.data());
   constexpr int kLag = 24;  // planes whose triangles are still on their way from memory
   constexpr int kTogether = 3;  // triangles of a vector whose lanes are found by one comparison each; the others one by one
   int fetched = 0;
+  uint32_t last = 0, last_primitive = kNoPrimitive, last_cell = 0;  // of the vector before, where it saw one triangle alone: most go on seeing it
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
     const Mask hit = hits_triangle(scene, listed);
     const I32 primitive = select(hit, listed, i32(0)), cell = I32::load(hits.pixel.data() + at + i) & i32(kCellMask);
-    uint32_t primitives[kLanes], cells[kLanes];
-    primitive.store(primitives), cell.store(cells);
-    I32 plane = i32(0);  // the others, and lanes past the last hit, point to the first
     uint32_t left = to_bits(hit & first_lanes(count - i));
+    I32 plane = i32(last);
+    left &= ~to_bits((primitive == i32(last_primitive)) & (cell == i32(last_cell)));
+    uint32_t primitives[kLanes], cells[kLanes];
+    if (left != 0) primitive.store(primitives), cell.store(cells);
     for (int found = 0; left != 0 && found < kTogether; ++found) {
       const int k = __builtin_ctz(left);
       const Mask same = (primitive == i32(primitives[k])) & (cell == i32(cells[k]));
-      plane = select(same, i32(finder.find(primitives[k], cells[k])), plane);
+      last = finder.find(primitives[k], cells[k]), last_primitive = primitives[k], last_cell = cells[k];
+      plane = select(same, i32(last), plane);
       left &= ~to_bits(same);
     }
-    plane.store(block.plane_of_hit + i);
+    select(hit, plane, i32(last)).store(block.plane_of_hit + i);  // lanes without a hit follow others
     for (; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(left);
       block.plane_of_hit[i + k] = finder.find(primitives[k], cells[k]);

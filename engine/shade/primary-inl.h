@@ -16,13 +16,14 @@ namespace HWY_NAMESPACE {
 namespace surface_lanes {
 
 // The planes of kLanes hits: a few, by broadcast into the lanes of each, or gathered.
-template <int kCount> struct FewPlanes {
+template <int kCount, bool kAllInside = false> struct FewPlanes {
+  static constexpr bool kInside = kAllInside;  // in each the whole cell (kPlaneInside)
   const float* single[kCount];
   const double* real[kCount];
   Mask lanes[kCount];  // not of the first
 
-  template <int kFirst> HWY_INLINE FewPlanes<kFirst> first() const {
-    FewPlanes<kFirst> r;
+  template <int kFirst, bool kFirstInside = false> HWY_INLINE FewPlanes<kFirst, kFirstInside> first() const {
+    FewPlanes<kFirst, kFirstInside> r;
     for (int i = 0; i < kFirst; ++i) r.single[i] = single[i], r.real[i] = real[i], r.lanes[i] = lanes[i];
     return r;
   }
@@ -38,6 +39,7 @@ template <int kCount> struct FewPlanes {
   }
 };
 struct ManyPlanes {
+  static constexpr bool kInside = false;
   const float* single;  // bases of the block
   const double* real;
   I32 single_offset, real_offset;
@@ -46,6 +48,7 @@ struct ManyPlanes {
 };
 // Of planes that stand within four lines: permutations of these instead of gathers.
 struct NearPlanes {
+  static constexpr bool kInside = false;
   const float* single;  // first line
   int stride;           // from line to line
   I32 plane;            // in these lines
@@ -106,17 +109,23 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
     point.t = to_f32(p.d(kPlaneDepth) * (better * (two - s * better)));
   }
 
-  const F32 b1 = p.f(kPlaneWeight) + at.moved(p.f(kPlaneWeight + 2), p.f(kPlaneWeight + 4));
-  const F32 b2 = p.f(kPlaneWeight + 1) + at.moved(p.f(kPlaneWeight + 3), p.f(kPlaneWeight + 5));
-  const F32 b0 = one - b1 - b2;
-  point.weight = {b0, b1, b2};
+  if (!Planes::kInside || frame.plan.weights || frame.settings.shading == Shading::kGouraud) {
+    const F32 b1 = p.f(kPlaneWeight) + at.moved(p.f(kPlaneWeight + 2), p.f(kPlaneWeight + 4));
+    const F32 b2 = p.f(kPlaneWeight + 1) + at.moved(p.f(kPlaneWeight + 3), p.f(kPlaneWeight + 5));
+    point.weight = {one - b1 - b2, b1, b2};
+  }
 
   const V3f moved = moved3(p, at, kPlanePosition);
   point.position = plane3(p, kPlanePosition) + moved;
   const F32 reach = mul_add(p.f(kPlaneError + 2), abs_(at.dy), p.f(kPlaneError + 1) * abs_(at.dx)) * at.inverse;
   point.position_error = mul_add(max_abs(point.position), f32(kPositionRounding), reach) + p.f(kPlaneError);
-  const F32 margin = mul_add(point.position_error, p.f(kPlaneSlimness), f32(0x1p-20f));
-  Mask good = (single_s > zero) & (b0 >= margin) & (b1 >= margin) & (b2 >= margin) & (point.position_error < f32(0x1p100f));
+  Mask good = first_lanes(kLanes);
+  point.geometric = plane3(p, kPlaneGeometric);
+  if (!Planes::kInside) {
+    const F32 margin = mul_add(point.position_error, p.f(kPlaneSlimness), f32(0x1p-20f));
+    good = (single_s > zero) & (point.weight.x >= margin) & (point.weight.y >= margin) & (point.weight.z >= margin) & (point.position_error < f32(0x1p100f)) &
+           (dot(point.geometric, point.geometric) > zero);
+  }
 
   const PrimaryRays& rays = frame.primary;
   const V3f none{zero, zero, zero};
@@ -124,8 +133,6 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   point.view = none;
   if (frame.plan.views)
     point.view = unit_or(plane3(p, kPlaneView) - single(rays.single_step_x) * at.dx - single(rays.single_step_y) * at.dy, 0.0f, none);
-  point.geometric = plane3(p, kPlaneGeometric);
-  good = good & (dot(point.geometric, point.geometric) > zero);
   point.normal = point.geometric;
   if (frame.plan.normals && frame.settings.shading != Shading::kFlat)
     point.normal = normal_of_blend(frame, plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
@@ -147,16 +154,16 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   return good;
 }
 
-// SurfaceBatch::triangle_light of all lights that the surfaces carry.
-template <class Planes> HWY_INLINE void put_triangle_light(const Frame& frame, const SurfaceBatch& out, int at, const Planes& p, const V3f& weight) {
+// What the triangles carry of that many lights: to(light, factor) says where kLanes floats of SurfaceBatch::triangle_light go.
+template <class Planes, class To> HWY_INLINE void put_triangle_light(const Frame& frame, int lights, const To& to, const Planes& p, const V3f& weight) {
   const bool corners = frame.settings.shading == Shading::kGouraud;
   int field = kPlaneLight;
-  for (int i = 0; i < out.lights; ++i)
+  for (int i = 0; i < lights; ++i)
     for (int factor = 0; factor < 2; ++factor, field += corners ? 3 : 1) {
       if (factor == 1 && !frame.plan.specular) continue;
       F32 light = p.f(field);
       if (corners) light = formula::shading::gouraud::interpolate(as_vec3(weight), light, p.f(field + 1), p.f(field + 2));
-      light.store(out.triangle_light(i, factor) + at);
+      light.store(to(i, factor));
     }
 }
 
@@ -184,7 +191,7 @@ template <class Visit> HWY_INLINE void with_planes(PlaneBlock& block, int hit, c
     few.lanes[count] = plane == i32(first);
     left &= ~to_bits(few.lanes[count]);
   }
-  if (count == 1) return visit(few.first<1>());
+  if (count == 1) return few.single[0][kPlaneInside * kPlaneLine] != 0.0f ? visit(few.first<1, true>()) : visit(few.first<1>());
   if (count == 2) return visit(few.first<2>());
   for (; count < kMost; ++count) few.single[count] = few.single[0], few.real[count] = few.real[0], few.lanes[count] = few.lanes[0];
   visit(few);

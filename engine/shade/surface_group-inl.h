@@ -13,13 +13,17 @@ namespace spanray {
 namespace HWY_NAMESPACE {
 namespace surface_lanes {
 
-// kLanes entries of a batch, from `at` on. All lanes are stored, valid or not: clear_misses (resolve_kernel.cpp) comes last.
-struct Group {
+// The materials of kLanes surfaces.
+struct Materials {
   const Frame& frame;
-  const SurfaceBatch& out;
-  int at;
   Mask valid;
   RecordLanes material;
+};
+
+// kLanes entries of a batch, from `at` on. All lanes are stored, valid or not: clear_misses (resolve_kernel.cpp) comes last.
+struct Group : Materials {
+  const SurfaceBatch& out;
+  int at;
 };
 
 HWY_INLINE void put(const Group& g, float* field, F32 value) { value.store(field + g.at); }
@@ -31,13 +35,13 @@ HWY_INLINE V3f get(const Group& g, float* const field[3]) {
   return {F32::load(field[0] + g.at), F32::load(field[1] + g.at), F32::load(field[2] + g.at)};
 }
 
-HWY_INLINE F32 material_real(const Group& g, int k) {
+HWY_INLINE F32 material_real(const Materials& g, int k) {
   return g.material.real(reinterpret_cast<const float*>(g.frame.scene->materials.data()), k);
 }
-HWY_INLINE V3f material_color(const Group& g, int k) {
+HWY_INLINE V3f material_color(const Materials& g, int k) {
   return {material_real(g, k), material_real(g, k + 1), material_real(g, k + 2)};
 }
-HWY_INLINE I32 material_map(const Group& g, int k) {
+HWY_INLINE I32 material_map(const Materials& g, int k) {
   return g.material.word(reinterpret_cast<const uint32_t*>(g.frame.scene->materials.data()), k);
 }
 
@@ -49,7 +53,7 @@ struct MaterialLanes {
 };
 
 // The constants of the materials; maps modulate them (material-inl.h). What the frame leaves out is 0.
-HWY_INLINE MaterialLanes constants_of(const Group& g) {
+HWY_INLINE MaterialLanes constants_of(const Materials& g) {
   const PlanFlags& plan = g.frame.plan;
   const V3f none{F32::zero(), F32::zero(), F32::zero()};
   MaterialLanes m;

@@ -1,0 +1,226 @@
+// Hits of primary rays -> radiance, kLanes at a time from plane to light.
+#include <cstddef>
+
+#include "shade/direct.h"
+#include "shade/light_kernel.h"
+#include "shade/surface_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/direct_kernel.cpp"
+#include "hwy/foreach_target.h"
+#include "shade/hit_point-inl.h"
+#include "shade/material-inl.h"
+#include "shade/surface_light-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+using namespace surface_lanes;
+namespace {
+
+using Vec = light_lanes::V3;
+using light_lanes::Incidence;
+using light_lanes::LightLanes;
+using light_lanes::Met;
+using light_lanes::Site;
+
+constexpr int kTogether = 4;  // vectors that go from stage to stage together: their surfaces stay in the first-level cache
+
+// A vector of hits, as far as it has come. Only what later stages read is stored.
+struct Shaded {
+  Mask valid;
+  V3f position, geometric, view, normal;
+  I32 material;
+  UvLanes uv;
+  MaterialLanes m;
+  Vec radiance;
+
+  HWY_INLINE void take(const Frame& frame, const PointLanes& point) {
+    position = point.position, geometric = point.geometric, material = point.material;
+    if (frame.plan.normals) normal = point.normal, view = point.view;
+    if (reads_textures(frame)) uv = point.uv;
+  }
+};
+
+// What maps do: apart, so that vectors without any stay short.
+HWY_NOINLINE void apply_bump(const Materials& g, Shaded& s) { s.normal = bumped_normal(g, s.uv, s.normal); }
+HWY_NOINLINE void apply_textures(const Materials& g, const UvLanes& uv, MaterialLanes& m) { apply_maps(g, uv, m); }
+
+HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
+  const float* const ambient = frame.scene->ambient_radiance;
+  Vec sum{F32::zero(), F32::zero(), F32::zero()};
+  if (frame.plan.emission) sum = as_vec3(m.emission);
+  if (!frame.plan.ambient) return sum;
+  return {mul_add(m.ambient.x, f32(ambient[0]), sum.x), mul_add(m.ambient.y, f32(ambient[1]), sum.y), mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
+}
+
+HWY_INLINE void add_material(const Frame& frame, Shaded& s) {
+  const Materials g{frame, s.valid, record_lanes(s.material, kMaterialStride, all(s.material == i32(first_lane(s.material))))};
+  if (frame.plan.bump) apply_bump(g, s);
+  if (frame.plan.normals) s.normal = clamp_to_horizon(s.normal, s.geometric);
+  s.m = constants_of(g);
+  if (reads_textures(frame)) apply_textures(g, s.uv, s.m);
+  s.radiance = ambient_of(frame, s.m);
+}
+
+// Light on vectors that go together, stage by stage: what waits for itself, roots, quotients and powers, then overlaps.
+template <class Kind> struct OneLight {
+  const Frame& frame;
+  const Light& light;
+  const LightLanes lanes;
+
+  HWY_INLINE Site site_of(const Shaded& s) const { return {as_vec3(s.position), as_vec3(s.normal), as_vec3(s.view)}; }
+
+  HWY_INLINE Mask faced(const Shaded& s, const Incidence& incidence) const {
+    return s.valid & (formula::dot(as_vec3(s.geometric), incidence.direction) > F32::zero());
+  }
+
+  HWY_INLINE bool meet(const Shaded& s, Met& met) const {
+    const Site site = site_of(s);
+    const Incidence incidence = Kind::incidence(lanes, site.position);
+    const auto highlight = [&]() HWY_ATTR { return max_(max_(s.m.specular.x, s.m.specular.y), s.m.specular.z); };
+    return light_lanes::meet_light(frame, site, incidence, faced(s, incidence), highlight, met);
+  }
+
+  HWY_INLINE void reflect(Shaded& s, const Met& met) const {
+    const Site site = site_of(s);
+    const Vec direction = Kind::incidence(lanes, site.position).direction;
+    add(s, met.active, light_lanes::reflect_light(frame, site, direction, met, s.material, s.m.shininess), met.specular);
+  }
+
+  HWY_INLINE void add(Shaded& s, Mask active, const light_lanes::Reflected& factor, bool specular) const {
+    using light_lanes::plus_light;
+    s.radiance = {plus_light(s.radiance.x, active, light.intensity[0], factor, s.m.diffuse.x, s.m.specular.x, specular),
+                  plus_light(s.radiance.y, active, light.intensity[1], factor, s.m.diffuse.y, s.m.specular.y, specular),
+                  plus_light(s.radiance.z, active, light.intensity[2], factor, s.m.diffuse.z, s.m.specular.z, specular)};
+  }
+
+  // carried: diffuse and specular factors of the first vector; those of the next stand `stride` floats behind.
+  void add_carried(Shaded* s, int vectors, const float* carried, int stride) const {
+    const bool specular = frame.plan.specular;
+    for (int k = 0; k < vectors; ++k) {
+      const float* const from = carried + k * stride;
+      const Mask active = faced(s[k], Kind::incidence(lanes, as_vec3(s[k].position)));
+      if (any(active)) add(s[k], active, {F32::load(from), specular ? F32::load(from + kLanes) : F32::zero()}, specular);
+    }
+  }
+
+  void add_all(Shaded* s, int vectors) const {
+    Met met[kTogether];
+    int n = 0;
+    for (int k = 0; k < vectors; ++k) {
+      met[n].at = k;
+      n += meet(s[k], met[n]);
+    }
+    for (int k = 0; k < n; ++k) reflect(s[met[k].at], met[k]);
+  }
+};
+
+// A batch, a few vectors at a time.
+class DirectShader {
+ public:
+  DirectShader(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& memory, float* const radiance[3])
+      : frame_(frame), hits_(hits), radiance_(radiance), carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())),
+        stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
+
+  DirectCounts shade() {
+    static_assert(kPlaneHits % (kTogether * kLanes) == 0);
+    for (int from = 0; from < hits_.count; from += kTogether * kLanes) {
+      if (from % kPlaneHits == 0) set_up(from);
+      find_points(from);
+      for (int k = 0; k < vectors_; ++k) add_material(frame_, shaded_[k]);
+      add_lights();
+      for (int k = 0; k < vectors_; ++k) store(at_[k], shaded_[k].valid, shaded_[k].radiance);
+    }
+    return counts_;
+  }
+
+ private:
+  void set_up(int from) {
+    set_up_block(frame_, hits_, from, planes_);
+    const int vectors = (planes_.planes + kLanes - 1) / kLanes;
+    counts_.plane_lanes.add({static_cast<uint64_t>(vectors * kLanes), static_cast<uint64_t>(planes_.planes)});
+  }
+
+  // The points of the next vectors that hit something; the others are done.
+  HWY_INLINE void find_points(int from) {
+    const int end = hits_.count < from + kTogether * kLanes ? hits_.count : from + kTogether * kLanes;
+    vectors_ = 0;
+    for (int i = from; i < end; i += kLanes) {
+      Shaded& s = shaded_[vectors_];
+      s.valid = hits_triangle(*frame_.scene, I32::load(hits_.primitive.data() + i)) & first_lanes(hits_.count - i);
+      const int found = count(s.valid);
+      if (found == 0) {
+        store(i, s.valid, {F32::zero(), F32::zero(), F32::zero()});
+        continue;
+      }
+      float* const carried = planes_.spare() + vectors_ * stride_;
+      const auto carry = [&](int light, int factor) HWY_ATTR { return carried + (2 * light + factor) * kLanes; };
+      with_planes(planes_, i % kPlaneHits, [&](const auto& of_hits) HWY_ATTR {
+        PointLanes point;
+        resolve_primary(frame_, hits_, i, s.valid, of_hits, carried_lights_, carry, point);
+        s.take(frame_, point);
+      });
+      at_[vectors_++] = i;
+      counts_.hits += found;
+      counts_.surface_lanes.add({static_cast<uint64_t>(kLanes), static_cast<uint64_t>(found)});
+    }
+  }
+
+  HWY_INLINE void add_lights() {
+    for (int i = 0; i < static_cast<int>(frame_.scene->lights.size()); ++i) {
+      const Light& light = light_of(frame_, i);
+      light_lanes::with_kind(light, [&](auto kind) HWY_ATTR {
+        const OneLight<decltype(kind)> one{frame_, light, light_lanes::broadcast_light(light)};
+        if (carried_lights_ > 0) one.add_carried(shaded_, vectors_, planes_.spare() + 2 * i * kLanes, stride_);
+        else one.add_all(shaded_, vectors_);
+      });
+    }
+  }
+
+  HWY_INLINE void store(int at, Mask valid, const Vec& color) const {
+    const float* const background = frame_.scene->background;
+    select(valid, color.x, f32(background[0])).store(radiance_[0] + at);
+    select(valid, color.y, f32(background[1])).store(radiance_[1] + at);
+    select(valid, color.z, f32(background[2])).store(radiance_[2] + at);
+  }
+
+  const Frame& frame_;
+  const HitBatch& hits_;
+  float* const* const radiance_;
+  const int carried_lights_;  // flat and Gouraud: what triangles carry of them stands behind the planes,
+  const int stride_;          // this far from vector to vector
+  PlaneBlock planes_;
+  DirectCounts counts_;
+  Shaded shaded_[kTogether];
+  int at_[kTogether], vectors_ = 0;
+};
+
+}  // namespace
+
+// Contract: bits of resolve(), shade_ambient_kernel() and the kernels of light: the same functions of the same values.
+DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]) {
+  return DirectShader(frame, hits, planes, radiance).shade();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace spanray {
+
+const ShadeDirectFn kShadeDirect[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_direct);
+
+bool can_shade_direct(const Frame& frame) {
+  const PlanFlags& plan = frame.plan;
+  return !plan.shadow_rays && !plan.bounces && !plan.translucents && !plan.lifted_rays && !plan.depths && !plan.weights && !plan.surfaces &&
+         !frame.scene->has_exact() && !frame.scene->triangles.empty() && (frame.settings.shading == Shading::kPhong || triangles_carry_light(frame));
+}
+
+DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]) {
+  return kShadeDirect[isa_index(frame.isa)](frame, hits, planes, radiance);
+}
+
+}  // namespace spanray
+#endif
