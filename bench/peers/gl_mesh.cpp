@@ -17,6 +17,17 @@ glm::dvec3 face_normal(const std::vector<Vertex>& vertices, const Corners& t) {
   return cross3(position(vertices[t.v[1]]) - a, position(vertices[t.v[2]]) - a);
 }
 
+// As uv_tangents of engine/shade/point-inl.h.
+struct Tangents { glm::dvec3 u, v; };
+Tangents find_tangents(const std::vector<Vertex>& vertices, const Corners& c) {
+  const Vertex &a = vertices[c.v[0]], &b = vertices[c.v[1]], &d = vertices[c.v[2]];
+  const glm::dvec3 side1 = position(b) - position(a), side2 = position(d) - position(a), n = cross3(side1, side2), none(0);
+  const double du1 = b.uv[0] - a.uv[0], du2 = d.uv[0] - a.uv[0], dv1 = b.uv[1] - a.uv[1], dv2 = d.uv[1] - a.uv[1];
+  if (du1 * dv2 - du2 * dv1 == 0) return {none, none};
+  const glm::dvec3 g1 = cross3(side2, n), g2 = cross3(n, side1);
+  return {normalize3(g1 * du1 + g2 * du2, none), normalize3(g1 * dv1 + g2 * dv2, none)};
+}
+
 Corners wind(const std::vector<Vertex>& vertices, const Triangle& t, bool by_normals) {
   Corners c = {{t.vertex[0], t.vertex[1], t.vertex[2]}};
   if ((t.bits & kTriangleFlipped) != 0) std::swap(c.v[1], c.v[2]);
@@ -40,9 +51,11 @@ class FaceGiver {
     }
     taken_[c.v[2]] = true;
     const glm::dvec3 n = normalize3(face_normal(mesh_.vertices, c), glm::dvec3(0, 0, 1));
+    const Tangents tangents = find_tangents(mesh_.vertices, c);
     GlFace& face = mesh_.faces[c.v[2]];
     for (int k = 0; k < 3; ++k) {
       face.normal[k] = static_cast<float>(n[k]);
+      face.tangent_u[k] = static_cast<float>(tangents.u[k]), face.tangent_v[k] = static_cast<float>(tangents.v[k]);
       face.centroid[k] = (mesh_.vertices[c.v[0]].position[k] + mesh_.vertices[c.v[1]].position[k] + mesh_.vertices[c.v[2]].position[k]) / 3.0f;
     }
   }

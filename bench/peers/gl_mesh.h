@@ -8,7 +8,7 @@
 namespace spanray::peers {
 
 // Of the triangle that a vertex provokes (OpenGL's `flat`: its last vertex).
-struct GlFace { float normal[3], centroid[3]; };
+struct GlFace { float normal[3], centroid[3], tangent_u[3], tangent_v[3]; };  // tangents: unit, along growing u and v, else 0
 
 struct GlBatch { uint32_t first, count, material; };  // of indices
 

@@ -31,10 +31,14 @@ void light(vec3 p, vec3 n, uint reach, out vec3 diffuse, out vec3 specular) {
 const char* const kVertexShader = R"(
 layout(location = 0) in vec3 aPosition; layout(location = 1) in vec3 aNormal; layout(location = 2) in vec2 aUv;
 layout(location = 3) in vec3 aFaceNormal; layout(location = 4) in vec3 aCentroid;
+layout(location = 5) in vec3 aTangentU; layout(location = 6) in vec3 aTangentV;
 uniform mat4 uClipFromWorld;
 uniform float uNearer;
-#if TEXTURED || MASKED
+#if WITH_UV
 out vec2 vUv;
+#endif
+#if BUMPED
+flat out vec3 vTangentU, vTangentV, vFaceNormal;
 #endif
 #if HORIZON
 // What lies on a face is turned to a light as its centroid is: of the front, and of the back.
@@ -59,8 +63,11 @@ void main() {
 #if OFFSET
   gl_Position.z *= uNearer;  // depth is near / view depth: a relative step, unlike glPolygonOffset, whose step grows with the triangle
 #endif
-#if TEXTURED || MASKED
+#if WITH_UV
   vUv = vec2(aUv.x, 1.0 - aUv.y);
+#endif
+#if BUMPED
+  vTangentU = aTangentU; vTangentV = aTangentV; vFaceNormal = aFaceNormal;
 #endif
 #if HORIZON
   vReach = find_reach(aCentroid, aFaceNormal);
@@ -91,25 +98,30 @@ in vec4 vLight[LIGHTS];
 #else
 INTERPOLATION in vec3 vDiffuse, vSpecular, vDiffuseBack, vSpecularBack;
 #endif
-#if TEXTURED || MASKED
+#if WITH_UV
 in vec2 vUv;
+#endif
+#if BUMPED
+flat in vec3 vTangentU, vTangentV, vFaceNormal;
 #endif
 #if HORIZON
 flat in uvec2 vReach;
 #endif
 uniform vec3 uConstant, uKd, uKs;  // uConstant: Ka times the scene's ambient light
 uniform vec3 uEmission;
-uniform sampler2D uColor, uOpacity;
-uniform vec4 uColorUv, uOpacityUv;        // scale, offset
+uniform sampler2D uColor, uOpacity, uHeight;
+uniform vec4 uColorUv, uOpacityUv, uHeightUv;  // scale, offset
+uniform float uHeightScale;
 uniform vec2 uColorRange, uOpacityRange;  // base, gain
 out vec4 oColor;
 
-#if OWN_LOD
-// Level of detail of engine/shade/texture-inl.h, the measure of OpenGL 4.6, 8.14.1: the longer side of a pixel, as a length.
-vec4 fetch(sampler2D map, vec2 uv) {
+// Level of detail of engine/shade/texture_use-inl.h, the measure of OpenGL 4.6, 8.14.1: the longer side of a pixel, as a length.
+float own_level(sampler2D map, vec2 uv) {
   vec2 size = vec2(textureSize(map, 0)), dx = dFdx(uv) * size, dy = dFdy(uv) * size;
-  return textureLod(map, uv, 0.5 * log2(max(dot(dx, dx), dot(dy, dy))));
+  return 0.5 * log2(max(dot(dx, dx), dot(dy, dy)));
 }
+#if OWN_LOD
+vec4 fetch(sampler2D map, vec2 uv) { return textureLod(map, uv, own_level(map, uv)); }
 #else
 vec4 fetch(sampler2D map, vec2 uv) { return texture(map, uv); }
 #endif
@@ -117,9 +129,46 @@ vec4 fetch(sampler2D map, vec2 uv) { return texture(map, uv); }
 vec2 moved(vec2 uv, vec4 by) { return vec2(uv.x * by.x + by.z, 1.0 - ((1.0 - uv.y) * by.y + by.w)); }
 #define COLOR max(uColorRange.x + uColorRange.y * fetch(uColor, moved(vUv, uColorUv)).rgb, vec3(0.0))
 #define OPACITY (uOpacityRange.x + uOpacityRange.y * fetch(uOpacity, moved(vUv, uOpacityUv)).r)
+#define HEIGHT_UV moved(vUv, uHeightUv)
+#define HEIGHT_SIDE sign(uHeightUv.xy)
 #else
 #define COLOR fetch(uColor, vUv).rgb
 #define OPACITY fetch(uOpacity, vUv).r
+#define HEIGHT_UV vUv
+#define HEIGHT_SIDE vec2(1.0)
+#endif
+
+#if BUMPED
+// Blinn's bump mapping as in engine/shade/bump-inl.h: slopes by bilinear samples half a texel to either side, on the levels of the footprint.
+vec2 slope(vec2 uv, float level) {
+  vec2 a = 0.5 / vec2(textureSize(uHeight, int(level)));
+  vec2 low = vec2(textureLod(uHeight, vec2(uv.x - a.x, uv.y), level).r, textureLod(uHeight, vec2(uv.x, uv.y + a.y), level).r);
+  vec2 high = vec2(textureLod(uHeight, vec2(uv.x + a.x, uv.y), level).r, textureLod(uHeight, vec2(uv.x, uv.y - a.y), level).r);
+  return (high - low) * exp2(-level);
+}
+vec3 tangent(vec3 along, vec3 n) {
+  vec3 t = along - n * dot(along, n);
+  return t * inversesqrt(max(dot(t, t), 1e-20));
+}
+vec3 bumped(vec3 n) {
+  vec2 uv = HEIGHT_UV;
+  float last = float(textureQueryLevels(uHeight) - 1), level = clamp(own_level(uHeight, uv), 0.0, last);
+#if BLEND_LEVELS
+  float first = floor(level);
+  vec2 s = mix(slope(uv, first), slope(uv, min(first + 1.0, last)), level - first);
+#else
+  vec2 s = slope(uv, floor(level + 0.5));
+#endif
+  s *= uHeightScale * HEIGHT_SIDE;
+  n = normalize(n - tangent(vTangentU, n) * s.x - tangent(vTangentV, n) * s.y);
+#if HORIZON
+  vec3 g = gl_FrontFacing ? vFaceNormal : -vFaceNormal;
+  n = normalize(n + g * max(1.0 / 1024.0 - dot(n, g), 0.0));
+#endif
+  return n;
+}
+#else
+vec3 bumped(vec3 n) { return n; }
 #endif
 
 vec3 encoded(vec3 c) {
@@ -136,7 +185,7 @@ void main() {
   reach = gl_FrontFacing ? vReach.x : vReach.y;
 #endif
 #if PHONG
-  light(vPosition, normalize(gl_FrontFacing ? vNormal : -vNormal), reach, diffuse, specular);
+  light(vPosition, bumped(normalize(gl_FrontFacing ? vNormal : -vNormal)), reach, diffuse, specular);
 #elif PER_LIGHT
   diffuse = specular = vec3(0.0);
   for (int i = 0; i < LIGHTS; ++i) {
@@ -195,6 +244,9 @@ std::string header(const SceneData& scene, const GlStyle& style, uint32_t featur
   bit("SHADER_SRGB", style.exactness.shader_srgb);
   bit("TEXTURED", (features & kTextured) != 0);
   bit("MASKED", (features & kMasked) != 0);
+  bit("BUMPED", (features & kBumped) != 0);
+  bit("WITH_UV", (features & (kTextured | kMasked | kBumped)) != 0);
+  bit("BLEND_LEVELS", style.blend_levels);
   define("HIGHLIGHT", (features & kHighlight) != 0 ? "true" : "false");
   bit("MOVED_UV", (features & kMovedUv) != 0);
   define("LIGHTS", std::to_string(scene.lights.empty() ? 1 : scene.lights.size()));

@@ -14,6 +14,7 @@ enum GlFeature : uint32_t {
   kMasked = 2,      // map_d: discard
   kHighlight = 4,   // Ks is not zero
   kMovedUv = 8,     // -o, -s or -mm
+  kBumped = 16,     // map_bump, Phong only
 };
 
 // How near to our engine the program must be; each step costs time (docs/peers.md).
@@ -27,6 +28,7 @@ struct GlExactness {
 struct GlStyle {
   Shading shading = Shading::kPhong;
   bool two_sided = true;
+  bool blend_levels = true;  // height maps: of two levels, as trilinear filtering does
   GlExactness exactness;
 };
 

@@ -51,7 +51,8 @@ GlRenderer::GlRenderer(const Scene& scene, const Settings& settings, const GlExa
   style_.shading = settings.shading;
   style_.two_sided = settings.culling == Culling::kNone;
   style_.exactness = exactness;
-  const bool with_faces = settings.shading == Shading::kFlat || exactness.horizon;
+  style_.blend_levels = settings.filter == Filter::kTrilinear;
+  const bool with_faces = settings.shading == Shading::kFlat || exactness.horizon || settings.bump;
   mesh_ = make_gl_mesh(scene.data(), settings.culling == Culling::kNone, with_faces);
 }
 
@@ -79,7 +80,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(const Scene& scene, const
 
 GlRenderer::~GlRenderer() {
   for (const auto& [features, program] : programs_) glDeleteProgram(program);
-  for (const auto& textures : {colors_, masks_})
+  for (const auto& textures : {colors_, masks_, heights_})
     for (const auto& [use, name] : textures) glDeleteTextures(1, &name);
   glDeleteFramebuffers(1, &target_);
   glDeleteRenderbuffers(2, planes_);
@@ -122,6 +123,10 @@ void GlRenderer::upload_mesh() {
     upload(GL_ARRAY_BUFFER, buffers_[1], mesh_.faces);
     attribute(3, 3, sizeof(GlFace), offsetof(GlFace, normal));
     attribute(4, 3, sizeof(GlFace), offsetof(GlFace, centroid));
+    if (settings_.bump) {
+      attribute(5, 3, sizeof(GlFace), offsetof(GlFace, tangent_u));
+      attribute(6, 3, sizeof(GlFace), offsetof(GlFace, tangent_v));
+    }
   }
   upload(GL_ELEMENT_ARRAY_BUFFER, buffers_[2], mesh_.indices);
 }
@@ -144,18 +149,22 @@ Result<void> GlRenderer::make_materials(TexelFormat texels) {
     const bool masked = effective_transparency(m, settings_) == MaterialTransparency::kMask;
     const TextureUse* color = settings_.textures ? use_of(scene, m.map_diffuse) : nullptr;
     const TextureUse* opacity = masked ? use_of(scene, m.map_opacity) : nullptr;
+    const TextureUse* height = settings_.bump && settings_.shading == Shading::kPhong ? use_of(scene, m.map_bump) : nullptr;
     uint32_t features = 0;
     if (color != nullptr) features |= kTextured;
     if (opacity != nullptr) features |= kMasked;
     if (m.specular[0] > 0 || m.specular[1] > 0 || m.specular[2] > 0) features |= kHighlight;
-    if (moved(color) || moved(opacity)) features |= kMovedUv;
+    if (height != nullptr) features |= kBumped;
+    if (moved(color) || moved(opacity) || moved(height)) features |= kMovedUv;
     const Result<GLuint> program = program_for(features);
     if (!program) return program.error();
     if (color != nullptr && colors_.count(m.map_diffuse) == 0)
       colors_[m.map_diffuse] = make_color_texture(scene, *color, settings_.filter, texels);
     if (opacity != nullptr && masks_.count(m.map_opacity) == 0)
       masks_[m.map_opacity] = make_mask_texture(scene, *opacity, settings_.filter);
-    materials_[i] = {program.value(), color != nullptr ? colors_[m.map_diffuse] : 0, opacity != nullptr ? masks_[m.map_opacity] : 0, &m};
+    if (height != nullptr && heights_.count(m.map_bump) == 0) heights_[m.map_bump] = make_height_texture(scene, *height);
+    materials_[i] = {program.value(), color != nullptr ? colors_[m.map_diffuse] : 0, opacity != nullptr ? masks_[m.map_opacity] : 0,
+                     height != nullptr ? heights_[m.map_bump] : 0, &m};
   }
   return check_gl("materials");
 }
@@ -180,6 +189,7 @@ void GlRenderer::set_frame_uniforms(GLuint program, const Camera& camera) const 
   set_lights(program, "uIntensity", lights, &Light::intensity, kInversePi);
   glUniform1i(glGetUniformLocation(program, "uColor"), 0);
   glUniform1i(glGetUniformLocation(program, "uOpacity"), 1);
+  glUniform1i(glGetUniformLocation(program, "uHeight"), 2);
 }
 
 void GlRenderer::set_material(const Material& material) const {
@@ -196,6 +206,12 @@ void GlRenderer::set_material(const Material& material) const {
   glUniform1f(glGetUniformLocation(p, "uShininess"), m.shininess);
   set_use(p, "uColorUv", "uColorRange", use_of(scene, m.map_diffuse));
   set_use(p, "uOpacityUv", "uOpacityRange", use_of(scene, m.map_opacity));
+  if (const TextureUse* const height = use_of(scene, m.map_bump); material.height != 0) {
+    glUniform4f(glGetUniformLocation(p, "uHeightUv"), height->scale[0], height->scale[1], height->offset[0], height->offset[1]);
+    glUniform1f(glGetUniformLocation(p, "uHeightScale"), height->gain * height->bump_multiplier);
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D, material.height);
+  }
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, material.opacity);
   glActiveTexture(GL_TEXTURE0);

@@ -14,7 +14,7 @@ namespace spanray::peers {
 
 class GlRenderer {
  public:
-  // The context must be current. settings: size, shading, filter, culling, textures, transparency.
+  // The context must be current. settings: size, shading, filter, culling, textures, bump, transparency.
   static Result<std::unique_ptr<GlRenderer>> create(const Scene& scene, const Settings& settings, const GlExactness& exactness,
                                                     TexelFormat texels);
   GlRenderer(const GlRenderer&) = delete;
@@ -31,7 +31,7 @@ class GlRenderer {
  private:
   GlRenderer(const Scene& scene, const Settings& settings, const GlExactness& exactness, TexelFormat texels);
   struct Material {
-    GLuint program = 0, color = 0, opacity = 0;
+    GLuint program = 0, color = 0, opacity = 0, height = 0;
     const spanray::Material* source = nullptr;
   };
   Result<void> make_target();
@@ -45,7 +45,7 @@ class GlRenderer {
   Settings settings_;
   GlStyle style_;
   std::map<uint32_t, GLuint> programs_;
-  std::map<int32_t, GLuint> colors_, masks_;  // by texture use
+  std::map<int32_t, GLuint> colors_, masks_, heights_;  // by texture use
   std::vector<Material> materials_;
   GlMesh mesh_;
   GLuint target_ = 0, buffers_[3] = {}, planes_[2] = {}, arrays_ = 0;

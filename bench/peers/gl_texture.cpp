@@ -48,6 +48,19 @@ uint16_t channel_of(const Texel& t, int32_t channel) {
   return static_cast<uint16_t>(luminance + 0.5);
 }
 
+GLuint make_channel_texture(const SceneData& scene, const TextureUse& use, Filter filter, int last) {
+  const Texture& t = scene.textures[static_cast<size_t>(use.texture)];
+  const GLuint name = begin_texture(use, filter, last);
+  std::vector<uint16_t> values;
+  for (int k = 0; k <= last; ++k) {
+    const Level level = level_of(scene, t, k);
+    values.resize(level.size);
+    for (size_t i = 0; i < level.size; ++i) values[i] = channel_of(level.texels[i], use.channel);
+    glTexImage2D(GL_TEXTURE_2D, k, GL_R16, level.width, level.height, 0, GL_RED, GL_UNSIGNED_SHORT, values.data());
+  }
+  return name;
+}
+
 }  // namespace
 
 GLuint make_color_texture(const SceneData& scene, const TextureUse& use, Filter filter, TexelFormat format) {
@@ -71,17 +84,12 @@ GLuint make_color_texture(const SceneData& scene, const TextureUse& use, Filter 
 }
 
 GLuint make_mask_texture(const SceneData& scene, const TextureUse& use, Filter filter) {
-  const Texture& t = scene.textures[static_cast<size_t>(use.texture)];
-  const int last = std::min(kMaskLastLevel, t.levels - 1);
-  const GLuint name = begin_texture(use, filter, last);
-  std::vector<uint16_t> values;
-  for (int k = 0; k <= last; ++k) {
-    const Level level = level_of(scene, t, k);
-    values.resize(level.size);
-    for (size_t i = 0; i < level.size; ++i) values[i] = channel_of(level.texels[i], use.channel);
-    glTexImage2D(GL_TEXTURE_2D, k, GL_R16, level.width, level.height, 0, GL_RED, GL_UNSIGNED_SHORT, values.data());
-  }
-  return name;
+  const int levels = scene.textures[static_cast<size_t>(use.texture)].levels;
+  return make_channel_texture(scene, use, filter, std::min(kMaskLastLevel, levels - 1));
+}
+
+GLuint make_height_texture(const SceneData& scene, const TextureUse& use) {
+  return make_channel_texture(scene, use, Filter::kBilinear, scene.textures[static_cast<size_t>(use.texture)].levels - 1);
 }
 
 }  // namespace spanray::peers

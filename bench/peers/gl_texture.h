@@ -12,5 +12,7 @@ enum class TexelFormat { kSrgb8, kRgba16 };
 GLuint make_color_texture(const SceneData& scene, const TextureUse& use, Filter filter, TexelFormat format);
 // The channel that the use names, one channel of 16 bits, levels 0 to 2 only: engine/shade/accept_kernel.cpp reads masks so.
 GLuint make_mask_texture(const SceneData& scene, const TextureUse& use, Filter filter);
+// The same with all levels, of which the shader names the one it reads.
+GLuint make_height_texture(const SceneData& scene, const TextureUse& use);
 
 }  // namespace spanray::peers

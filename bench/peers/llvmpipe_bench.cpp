@@ -1,5 +1,5 @@
 // llvmpipe_bench SCENE: our renderer and Mesa llvmpipe draw the same frame in turns; times, and how far the pictures agree.
-// No shadows, no reflections, no bump; what is translucent is drawn opaque by both. A line of a table on stdout.
+// No shadows, no reflections; height maps with --with-bump; what is translucent is drawn opaque by both. A line of a table on stdout.
 // Exit 0 done, 1 could not (or the pictures disagree and --require-agreement was given), 2 wrong usage, 77 no llvmpipe here.
 #include <cstdio>
 #include <memory>
@@ -28,7 +28,7 @@ struct Options {
   GlExactness exactness;
   TexelFormat texels = TexelFormat::kSrgb8;
   bool fixed_exactness = false;  // --gl: as given instead of the cheapest that agrees
-  bool require_agreement = false, header = false;
+  bool require_agreement = false, header = false, with_bump = false;
   std::string json, pictures, label;
 };
 
@@ -60,6 +60,7 @@ void add_options(CLI::App& app, Options& o) {
                                        "plain, or what the GL program adds to agree, joined by +: offset (coplanar surfaces in our order), "
                                        "horizon (no light from below the geometric horizon), lod (our mip level formula). Without this "
                                        "option: the cheapest that agrees");
+  app.add_flag("--with-bump", o.with_bump, "Both draw height maps (map_bump), Phong shading only; normal maps are ours alone");
   app.add_flag("--gl-shader-srgb", o.exactness.shader_srgb, "GL encodes sRGB in the shader instead of the framebuffer");
   app.add_flag_callback("--gl-rgba16", [&o] { o.texels = TexelFormat::kRgba16; }, "GL samples our 16-bit linear texels instead of 8-bit sRGB");
   app.add_option("--json", o.json, "Append one JSON object, a line, to this file");
@@ -141,11 +142,11 @@ Result<std::unique_ptr<GlRenderer>> make_peer(Options& o, const demo::Job& job) 
 }
 
 // What both can draw alike.
-void restrict_settings(Settings& s) {
+void restrict_settings(Settings& s, bool with_bump) {
   s.shadows = Shadows::kNone;
   s.reflections = Reflections::kNone;
   s.transparency = Transparency::kNone;
-  s.bump = false;
+  s.bump = with_bump;
   if (s.threads == 0) s.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
@@ -195,7 +196,7 @@ int compare(const CLI::App& app, Options& o) {
   Result<demo::Job> loaded = o.frame.load();
   if (!loaded) return fail(app, loaded.error());
   demo::Job& job = loaded.value();
-  restrict_settings(job.settings);
+  restrict_settings(job.settings, o.with_bump);
   const auto context = GlContext::create(job.settings.threads);
   if (!context) return fail(app, context.error(), kSkipped);
   const auto gl = make_peer(o, job);

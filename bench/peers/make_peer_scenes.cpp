@@ -1,14 +1,16 @@
-// make_peer_scenes FOLDER: synthetic scenes that a rasterizer's parts can be measured with, as OBJ, MTL, PNG and TOML files.
+// make_peer_scenes FOLDER [MODEL.3ds]: synthetic scenes that a rasterizer's parts can be measured with, as OBJ, MTL, PNG and TOML files.
 //   overdraw-b2f, overdraw-f2b  32 layers that fill a picture of 16:9, drawn back to front, or front to back
 //   grid                        10,000 right triangles with legs of 20 pixels of 1920x1080, at random places, angles and depths
+//   grid-bump                   the same with a height map
 //   sphere1m                    a sphere of 1000 x 501 quadrilaterals: a million triangles
-// One point light without falloff, one color texture. A tool of the benchmark: its files may differ in the last digit between machines.
+// One point light without falloff, one color texture. A model is written as asteroid.obj, without materials or light. A tool of the benchmark: its files may differ in the last digit between machines.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
 
+#include "model_3ds.h"
 #include "spanray/image.h"
 
 namespace {
@@ -20,7 +22,9 @@ const double kEyeHeight = kHeight / 2 / std::tan(kPi / 8);  // one unit is one p
 // An OBJ file being written; indices count from 1.
 class ObjFile {
  public:
-  explicit ObjFile(const std::filesystem::path& path) : out_(path) { out_ << "mtllib peers.mtl\nusemtl surface\n"; }
+  explicit ObjFile(const std::filesystem::path& path, const char* material = "surface") : out_(path) {
+    out_ << "mtllib peers.mtl\nusemtl " << material << '\n';
+  }
   int vertex(double x, double y, double z, double u, double v, double nx = 0, double ny = 0, double nz = 1) {
     char text[256];
     std::snprintf(text, sizeof text, "v %.9g %.9g %.9g\nvt %.9g %.9g\nvn %.9g %.9g %.9g\n", x, y, z, u, v, nx, ny, nz);
@@ -51,8 +55,8 @@ bool write_layers(const std::filesystem::path& path, bool back_to_front) {
   return obj.good();
 }
 
-bool write_grid(const std::filesystem::path& path) {
-  ObjFile obj(path);
+bool write_grid(const std::filesystem::path& path, const char* material) {
+  ObjFile obj(path, material);
   std::mt19937 bits(1);
   const auto random = [&](double scale) { return (static_cast<double>(static_cast<uint32_t>(bits())) / 4294967296.0 - 0.5) * scale; };
   for (int i = 0; i < 10000; ++i) {
@@ -83,6 +87,23 @@ bool write_sphere(const std::filesystem::path& path) {
   return obj.good();
 }
 
+// Without materials: it is seen in our default light.
+bool write_model(const std::filesystem::path& path, const spanray::peers::Model3ds& model) {
+  std::ofstream out(path);
+  char text[160];
+  for (size_t i = 0; i < model.positions.size(); ++i) {
+    const auto &p = model.positions[i], &n = model.normals[i];
+    std::snprintf(text, sizeof text, "v %.9g %.9g %.9g\nvn %.9g %.9g %.9g\n", double{p[0]}, double{p[1]}, double{p[2]}, double{n[0]}, double{n[1]},
+                  double{n[2]});
+    out << text;
+  }
+  for (const auto& f : model.faces) {
+    std::snprintf(text, sizeof text, "f %d//%d %d//%d %d//%d\n", f[0] + 1, f[0] + 1, f[1] + 1, f[1] + 1, f[2] + 1, f[2] + 1);
+    out << text;
+  }
+  return static_cast<bool>(out.flush());
+}
+
 // Soft blotches between two earthen colors, 512 x 512, repeating.
 spanray::Image albedo() {
   constexpr int kSide = 512;
@@ -97,6 +118,20 @@ spanray::Image albedo() {
   return image;
 }
 
+// Waves of some ten texels' length, 512 x 512, repeating: slopes up to about 1/2 a texel.
+spanray::Image heights() {
+  constexpr int kSide = 512;
+  spanray::Image image{kSide, kSide, {}};
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const double s = 2 * kPi * x / kSide, t = 2 * kPi * y / kSide;
+      const double h = std::sin(37 * s + 2 * std::sin(3 * t)) + std::sin(41 * t + 2 * std::sin(5 * s + 2 * t));
+      const auto byte = static_cast<uint8_t>(127.5 + 63.7 * h);
+      for (const uint8_t channel : {byte, byte, byte, uint8_t{255}}) image.rgba.push_back(channel);
+    }
+  return image;
+}
+
 bool write_scene(const std::filesystem::path& path, const std::string& obj, double eye_z) {
   std::ofstream out(path);
   out << "obj = \"" << obj << "\"\nbackground = [0.033, 0.033, 0.051]\nambient = [0.1, 0.1, 0.1]\n\n[[camera]]\nname = \"front\"\neye = [0.0, 0.0, "
@@ -107,10 +142,13 @@ bool write_scene(const std::filesystem::path& path, const std::string& obj, doub
 
 bool write_all(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "peers.mtl") << "newmtl surface\nKd 0.8 0.8 0.8\nKs 0.3 0.3 0.3\nNs 32\nillum 2\nmap_Kd albedo.png\n";
+  const char* const material = "Kd 0.8 0.8 0.8\nKs 0.3 0.3 0.3\nNs 32\nillum 2\nmap_Kd albedo.png\n";
+  std::ofstream(folder / "peers.mtl") << "newmtl surface\n" << material << "newmtl bumped\n" << material << "map_bump -bm 1 height.png\n";
   const double sphere_eye = 1 / std::sin(kPi / 8);
-  return write_png((folder / "albedo.png").string(), albedo()) && write_layers(folder / "overdraw-b2f.obj", true) &&
-         write_layers(folder / "overdraw-f2b.obj", false) && write_grid(folder / "grid.obj") && write_sphere(folder / "sphere1m.obj") &&
+  return write_png((folder / "albedo.png").string(), albedo()) && write_png((folder / "height.png").string(), heights()) && write_layers(folder / "overdraw-b2f.obj", true) &&
+         write_layers(folder / "overdraw-f2b.obj", false) && write_grid(folder / "grid.obj", "surface") &&
+         write_grid(folder / "grid-bump.obj", "bumped") && write_sphere(folder / "sphere1m.obj") &&
+         write_scene(folder / "grid-bump.toml", "grid-bump.obj", kEyeHeight) &&
          write_scene(folder / "overdraw-b2f.toml", "overdraw-b2f.obj", kEyeHeight) &&
          write_scene(folder / "overdraw-f2b.toml", "overdraw-f2b.obj", kEyeHeight) && write_scene(folder / "grid.toml", "grid.obj", kEyeHeight) &&
          write_scene(folder / "sphere1m.toml", "sphere1m.obj", sphere_eye);
@@ -119,11 +157,21 @@ bool write_all(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: make_peer_scenes FOLDER\n");
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: make_peer_scenes FOLDER [MODEL.3ds]\n");
     return 2;
   }
-  if (write_all(argv[1])) return 0;
+  const std::filesystem::path folder = argv[1];
+  bool written = write_all(folder);
+  if (written && argc == 3) {
+    const auto model = spanray::peers::read_3ds(argv[2]);
+    if (!model) {
+      std::fprintf(stderr, "make_peer_scenes: %s\n", model.error().to_string().c_str());
+      return 1;
+    }
+    written = write_model(folder / "asteroid.obj", model.value());
+  }
+  if (written) return 0;
   std::fprintf(stderr, "make_peer_scenes: could not write to %s\n", argv[1]);
   return 1;
 }
