@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "frame/tiles.h"
-
 namespace spanray {
 
 void PixelOrder::make(int columns, int rows) {

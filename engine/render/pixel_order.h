@@ -1,11 +1,14 @@
 // The order in which the pixels of a chunk are shaded: cells of 16 x 16, in them blocks of 4 x 4, so that the pixels of a vector are
 // neighbours in the picture. They see the same triangles, textures and boxes.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <vector>
+
+#include "frame/tiles.h"
 
 namespace spanray {
 
@@ -37,18 +40,29 @@ class PixelOrder {
  private:
   // Runs of pixels that are neighbours both in slots and in a row.
   template <class Copy> void each_run(const Copy& copy) const {
-    const auto x = [](uint32_t pixel) { return static_cast<ptrdiff_t>(pixel & 0xffff); };
-    const auto y = [](uint32_t pixel) { return static_cast<ptrdiff_t>(pixel >> 16); };
-    const uint32_t* const pixel = pixel_.data();  // no members in the loops: what is copied might change them
-    const size_t pixels = pixel_.size();
-    if (columns_ % kBlock == 0 && rows_ % kBlock == 0) {
-      constexpr std::integral_constant<size_t, kBlock> kRun;
-      for (size_t i = 0; i < pixels; i += kBlock * kBlock)
-        for (size_t row = 0; row < kBlock; ++row) copy(i + row * kBlock, x(pixel[i]), y(pixel[i]) + static_cast<ptrdiff_t>(row), kRun);
-    } else {
-      constexpr std::integral_constant<size_t, 1> kRun;
-      for (size_t i = 0; i < pixels; ++i) copy(i, x(pixel[i]), y(pixel[i]), kRun);
+    const int columns = columns_, rows = rows_;  // no members in the loops: what is copied might change them
+    if (columns % kBlock != 0 || rows % kBlock != 0) {
+      const uint32_t* const pixel = pixel_.data();
+      for (size_t i = 0, n = pixel_.size(); i < n; ++i)
+        copy(i, static_cast<ptrdiff_t>(pixel[i] & 0xffff), static_cast<ptrdiff_t>(pixel[i] >> 16), std::integral_constant<size_t, 1>());
+      return;
     }
+    size_t first = 0;  // slot of the cell
+    for (int y0 = 0; y0 < rows; y0 += kCellSize)
+      for (int x0 = 0; x0 < columns; x0 += kCellSize) {
+        const int width = std::min(kCellSize, columns - x0), height = std::min(kCellSize, rows - y0);
+        if (width == kCellSize) each_run_of_cell(first, x0, y0, std::integral_constant<int, kCellSize>(), height, copy);
+        else each_run_of_cell(first, x0, y0, width, height, copy);
+        first += static_cast<size_t>(width * height);
+      }
+  }
+  // Row by row: whole cache lines are then written at once.
+  template <class Width, class Copy> static void each_run_of_cell(size_t first, int x0, int y0, Width width, int height, const Copy& copy) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; x += kBlock) {
+        const int slot = (y / kBlock) * kBlock * width + x * kBlock + (y % kBlock) * kBlock;
+        copy(first + static_cast<size_t>(slot), ptrdiff_t{x0} + x, ptrdiff_t{y0} + y, std::integral_constant<size_t, kBlock>());
+      }
   }
 
   static constexpr int kBlock = 4;  // side of a block

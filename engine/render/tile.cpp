@@ -7,6 +7,7 @@
 
 #include "frame/ladder.h"
 #include "raster/raster.h"
+#include "render/slots_kernel.h"
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
@@ -38,30 +39,14 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
 }
 
 // The slots of primary rays that hit something, with what they hit.
-void pick_hits(Level& level) {
+void pick_hits(const FrameJob& job, Level& level) {
   const size_t slots = static_cast<size_t>(level.slots);
-  const uint32_t* const primitive = level.primitive.data();
-  const uint32_t* const pixel = level.pixel.data();
   level.slot_of_hit.resize(slots);
   level.hits.resize(level.slots, false);
-  uint32_t* const hit_slot = level.slot_of_hit.data();
-  uint32_t* const hit_primitive = level.hits.primitive.data();
-  uint32_t* const hit_pixel = level.hits.pixel.data();
-  size_t misses = 0, hits = 0;
-  for (size_t slot = 0; slot < slots; ++slot) misses += primitive[slot] == kNoPrimitive;
-  if (misses == 0) {
-    for (size_t slot = 0; slot < slots; ++slot) hit_slot[slot] = static_cast<uint32_t>(slot);
-    std::copy_n(primitive, slots, hit_primitive), std::copy_n(pixel, slots, hit_pixel);
-    return;
-  }
-  for (size_t slot = 0; slot < slots && misses < slots; ++slot) {
-    hit_slot[hits] = static_cast<uint32_t>(slot);
-    hit_primitive[hits] = primitive[slot];
-    hit_pixel[hits] = pixel[slot];
-    hits += primitive[slot] != kNoPrimitive;
-  }
-  level.slot_of_hit.resize(hits);
-  level.hits.resize(static_cast<int>(hits), false);
+  const int hits = pick_slots(job.frame.isa, level.primitive.data(), level.pixel.data(), level.slots, level.slot_of_hit.data(),
+                              level.hits.primitive.data(), level.hits.pixel.data());
+  level.slot_of_hit.resize(static_cast<size_t>(hits));
+  level.hits.resize(hits, false);
 }
 
 // The slots of other rays that hit something, grouped by what they hit.
@@ -76,8 +61,8 @@ void group_hits(TileWorker& w, Level& level) {
 }
 
 // The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture.
-void compact_hits(TileWorker& w, Level& level, bool primary) {
-  if (primary) pick_hits(level);
+void compact_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
+  if (primary) pick_hits(job, level);
   else group_hits(w, level);
   const AlignedBuffer<uint32_t>& place = level.shading_place.empty() ? level.place : level.shading_place;
   level.hits.place.resize(place.empty() ? 0 : level.slot_of_hit.size());
@@ -97,6 +82,10 @@ void scatter_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary
   const float* const background = job.frame.scene->background;
   const float miss[4] = {background[0], background[1], background[2], kInfinity};
   const int fields = job.frame.plan.depths ? 4 : 3;
+  if (primary) {
+    for (int k = 0; k < fields; ++k) spread_hits(job.frame.isa, level.primitive.data(), level.slots, from[k], miss[k], to[k]);
+    return;
+  }
   for (int k = 0; k < fields; ++k) std::fill_n(to[k], level.slots, miss[k]);
   for (int i = 0; i < level.hits.count; ++i)
     for (int k = 0; k < fields; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
@@ -124,15 +113,17 @@ void shade_slots(const FrameJob& job, TileWorker& w, Level& level) {
   if (job.frame.plan.lit_vertices) w.counts.vertices_lit += 3 * counts.plane_lanes.used;
 }
 
-// Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others.
+// Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others, unless only bytes will.
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
   w.clock.enter(TileStage::kShade);
+  level.radiance_of_hits = false;
   if (can_shade_direct(job.frame)) return shade_slots(job, w, level);
-  compact_hits(w, level, primary);
+  compact_hits(job, w, level, primary);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   count_lanes(job.frame, level.surfaces, w.counts);
   light_surfaces(job, w, level.surfaces, level.hits);
-  scatter_hits(job, w, level, primary);
+  level.radiance_of_hits = primary && job.only_bytes();
+  if (!level.radiance_of_hits) scatter_hits(job, w, level, primary);
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
@@ -232,7 +223,7 @@ void finish_quads(const FrameJob& job, TileWorker& w, Level& level) {
   if (!job.request.depth && !job.request.normal && !job.request.uv) return;
   w.clock.enter(TileStage::kShade);
   level.shading_place.clear();
-  compact_hits(w, level, true);
+  compact_hits(job, w, level, true);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   for (int i = 0; i < level.hits.count; ++i) level.opaque_t[level.slot_of_hit[i]] = level.surfaces.t[i];
 }
@@ -256,6 +247,18 @@ void shade_levels(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < from.slots; ++i) to.radiance[c][from.parent[i]] += from.weight[c][i] * from.radiance[c][i];
   }
+}
+
+// Whether all that anybody asks of the chunk is the background's color.
+bool shows_background(const FrameJob& job, const Chunk& chunk, const TileWorker& w) {
+  if (job.asks_for_more() || job.bins == nullptr || job.frame.places.count > 1 || !w.fragments.pixel.empty()) return false;
+  const uint32_t* row = w.visible.primitive + (chunk.y0 - job.frame.grid.y0(chunk.tile)) * kTileSize;
+  for (int y = chunk.y0; y < chunk.y1; ++y, row += kTileSize) {
+    uint32_t all = kNoPrimitive;  // no early end within a row: the compiler takes vectors
+    for (int x = 0; x < chunk.columns; ++x) all &= row[x];
+    if (all != kNoPrimitive) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -298,6 +301,11 @@ void render_tile(const FrameJob& job, int tile, TileWorker& w) {
   const int rows = chunk_rows(job.frame);
   for (int y0 = grid.y0(tile); y0 < grid.y1(tile); y0 += rows) {
     const Chunk chunk{tile, grid.x0(tile), grid.x1(tile) - grid.x0(tile), y0, std::min(y0 + rows, grid.y1(tile))};
+    if (shows_background(job, chunk, w)) {
+      write_background(job, w, chunk);
+      continue;
+    }
+    fetch_output(job, chunk);
     start_chunk(job, chunk, w, level);
     shade_levels(job, w, chunk);
     w.counts.surfaces_shaded += static_cast<uint64_t>(level.hits.count);
@@ -329,7 +337,7 @@ size_t TileWorker::memory_bytes() const {
   size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
                  surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
                  fragment_surfaces.memory_bytes() + order.memory_bytes() + pixel_order.memory_bytes() + row_t.bytes() + row_primitive.bytes() +
-                 encoded.bytes();
+                 encoded.bytes() + encoded_hits.bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + row_radiance[c].bytes();
   if (samples) bytes += samples->memory_bytes();
   for (const auto& level : levels) bytes += level->memory_bytes();

@@ -47,6 +47,7 @@ struct Level {
   AlignedBuffer<uint32_t> shading_place;  // by slot: where in its pixel it is shaded
   AlignedBuffer<uint32_t> whole_slot;     // by pixel of the chunk
   int slots = 0;
+  bool radiance_of_hits = false;  // radiance was not brought to the slots: it stands in TileWorker::radiance, by hit
 
   void resize(int n, bool translucents);
   size_t memory_bytes() const;
@@ -66,7 +67,7 @@ struct TileWorker {
   SurfaceBatch fragment_surfaces;
   PixelOrder pixel_order;                         // of a chunk's pixels; with one sample a pixel, of the slots of level 0
   AlignedBuffer<float> row_radiance[3], row_t;    // results of level 0 row by row, where they are asked for
-  AlignedBuffer<uint32_t> row_primitive, encoded;
+  AlignedBuffer<uint32_t> row_primitive, encoded, encoded_hits;
   HitOrder order;                                 // of hits of bounce rays
   FrameCounts counts;
   StageClock clock;
@@ -82,6 +83,16 @@ struct FrameJob {
   Framebuffer& out;
   const FrameRequest& request;
   const ExactBins* exact = nullptr;  // only if the scene has exact primitives
+
+  // For arrays besides the bytes of the picture.
+  bool asks_for_more() const {
+    return request.radiance || request.depth || request.primitive || request.normal || request.uv || request.ladder != nullptr;
+  }
+  // Whether the radiance of level 0 only becomes bytes: then it stays with the hits, and their bytes are brought to the slots.
+  bool only_bytes() const {
+    const PlanFlags& plan = frame.plan;
+    return !asks_for_more() && frame.places.count == 1 && !plan.translucents && !plan.bounces && !plan.coarse_quads;
+  }
 };
 
 // Finished pixels of a chunk, row by row: level 0 itself, or what resolve_samples made of it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "image/encode.h"
+#include "render/slots_kernel.h"
 #include "render/tile_ladder.h"
 
 namespace spanray {
@@ -46,15 +47,45 @@ ChunkPixels pixels_of(const SampleHits& s) {
   return {{s.radiance[0].data(), s.radiance[1].data(), s.radiance[2].data()}, s.front_t.data(), s.front.data()};
 }
 
+// The bytes of a chunk's first pixel.
+uint8_t* first_byte(const FrameJob& job, const Chunk& chunk) {
+  const size_t width = static_cast<size_t>(job.frame.grid.width);
+  return job.out.color.rgba.data() + 4 * (static_cast<size_t>(chunk.y0) * width + static_cast<size_t>(chunk.x0));
+}
+
+uint32_t background_color(const FrameJob& job) {
+  const float* const background = job.frame.scene->background;
+  const float* const radiance[3] = {background, background + 1, background + 2};
+  uint32_t color = 0;
+  encode_row(job.frame.isa, radiance, 1, reinterpret_cast<uint8_t*>(&color));
+  return color;
+}
+
+void encode(const FrameJob& job, const AlignedBuffer<float> (&radiance)[3], int count, AlignedBuffer<uint32_t>& bytes) {
+  const float* const channels[3] = {radiance[0].data(), radiance[1].data(), radiance[2].data()};
+  bytes.resize(static_cast<size_t>(count));
+  encode_row(job.frame.isa, channels, count, reinterpret_cast<uint8_t*>(bytes.data()));
+}
+
+// By slot of level 0, one sample a pixel.
+const uint32_t* encode_slots(const FrameJob& job, TileWorker& w, const Level& level) {
+  if (!level.radiance_of_hits) {
+    encode(job, level.radiance, level.slots, w.encoded);
+    return w.encoded.data();
+  }
+  encode(job, w.radiance, level.hits.count, w.encoded_hits);
+  if (level.hits.count == level.slots) return w.encoded_hits.data();
+  w.encoded.resize(static_cast<size_t>(level.slots));
+  spread_hits(job.frame.isa, level.primitive.data(), level.slots, w.encoded_hits.data(), background_color(job), w.encoded.data());
+  return w.encoded.data();
+}
+
 // Radiance of a chunk -> bytes.
 void encode_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
   const size_t width = static_cast<size_t>(job.frame.grid.width);
-  uint8_t* const out = job.out.color.rgba.data() + 4 * (static_cast<size_t>(chunk.y0) * width + static_cast<size_t>(chunk.x0));
+  uint8_t* const out = first_byte(job, chunk);
   if (level.place.empty()) {
-    const float* radiance[3] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data()};
-    w.encoded.resize(static_cast<size_t>(level.slots));
-    encode_row(job.frame.isa, radiance, level.slots, reinterpret_cast<uint8_t*>(w.encoded.data()));
-    w.pixel_order.to_rows(w.encoded.data(), job.frame.grid.width, reinterpret_cast<uint32_t*>(out));
+    w.pixel_order.to_rows(encode_slots(job, w, level), job.frame.grid.width, reinterpret_cast<uint32_t*>(out));
     return;
   }
   const size_t columns = static_cast<size_t>(chunk.columns);
@@ -81,6 +112,21 @@ void write_extras(const FrameJob& job, const ChunkPixels& pixels, const Chunk& c
 }
 
 }  // namespace
+
+void fetch_output(const FrameJob& job, const Chunk& chunk) {
+  constexpr int kLine = 64;
+  const uint8_t* row = first_byte(job, chunk);
+  for (int y = chunk.y0; y < chunk.y1; ++y, row += 4 * static_cast<size_t>(job.frame.grid.width))
+    for (int i = 0; i < 4 * chunk.columns; i += kLine) __builtin_prefetch(row + i, 1);
+}
+
+void write_background(const FrameJob& job, TileWorker& w, const Chunk& chunk) {
+  w.clock.enter(TileStage::kEncode);
+  const uint32_t color = background_color(job);
+  const size_t width = static_cast<size_t>(job.frame.grid.width);
+  uint8_t* row = first_byte(job, chunk);
+  for (int y = chunk.y0; y < chunk.y1; ++y, row += 4 * width) std::fill_n(reinterpret_cast<uint32_t*>(row), chunk.columns, color);
+}
 
 void write_chunk(const FrameJob& job, TileWorker& w, const Level& level, const Chunk& chunk) {
   w.clock.enter(TileStage::kEncode);

@@ -212,6 +212,19 @@ HWY_INLINE int compress_store(F32 a, Mask m, float* p) {
   return count(m);
 }
 
+// Lane i of `m` is p[k], where k counts the lanes of m before it; other lanes are anything. Reads a whole vector.
+HWY_INLINE I32 expand_load(const uint32_t* p, Mask m) {
+#if HWY_TARGET == HWY_AVX3  // Highway 1.0.3 has no Expand
+  return {hn::Vec<DI>{_mm512_maskz_expand_epi32(m.m.raw, I32::load(p).v.raw)}};
+#else
+  alignas(64) int32_t rank[kLanes];
+  const uint32_t bits = to_bits(m);
+  int32_t before = 0;
+  for (int i = 0; i < kLanes; ++i) rank[i] = before, before += static_cast<int32_t>(bits >> i & 1);
+  return lookup(p, select(m, I32::load(rank), I32::zero()));
+#endif
+}
+
 // The two halves of 64-bit word `index` of base.
 struct WordPair { I32 low, high; };
 HWY_INLINE WordPair gather_pair(const uint32_t* base, I32 index) {
