@@ -119,6 +119,29 @@ TEST(RasterVisibility, TranslucentFragmentsLieInFrontOfTheOpaque) {
   }
 }
 
+// Small triangles side by side in two tiles, in threes of one kind: neighbours in the list of a scene, of one tile, of two lists.
+TEST(RasterVisibility, BinsKeepTheOrderAndTellTranslucentTrianglesFromOthers) {
+  std::vector<SoupTriangle> soup;
+  for (int i = 0; i < 120; ++i) {
+    const double x = i < 60 ? -0.9 : 0.4, y = -1 + 0.03 * (i % 60);
+    soup.push_back(soup_triangle({x, y, 0}, {x + 0.1, y, 0}, {x, y + 0.1, 0}, i / 3 % 2 == 0 ? 0 : 1));
+  }
+  const auto t = make_test_frame(make_test_scene(soup, {Material{}, translucent_material()}), camera_at({0, 0, 3}, {0, 0, 0}), test_settings(128, 64));
+  const FrontEnd front = run_front_end(t->frame);
+  ASSERT_EQ(front.counts.triangles_drawn, 120u);
+  ASSERT_EQ(front.bins.chunks.size(), 1u);
+  const BinChunk& chunk = front.bins.chunks[0];
+  for (uint32_t tile = 0; tile < 2; ++tile) {
+    std::vector<uint32_t> expected[2];
+    for (uint32_t i = 60 * tile; i < 60 * tile + 60; ++i) expected[i / 3 % 2].push_back(i);
+    const auto list = [&](const AlignedBuffer<uint32_t>& of, const std::vector<uint32_t>& start) {
+      return std::vector<uint32_t>(of.data() + start[tile], of.data() + start[tile + 1]);
+    };
+    EXPECT_EQ(list(chunk.opaque, chunk.opaque_start), expected[0]) << tile;
+    EXPECT_EQ(list(chunk.translucent, chunk.translucent_start), expected[1]) << tile;
+  }
+}
+
 TEST(RasterVisibility, BackFacesAreCulledOnDemand) {
   const std::vector<SoupTriangle> soup = {soup_triangle({-9, -9, 0}, {0, 15, 0}, {9, -9, 0}), soup_triangle({-9, -9, -1}, {9, -9, -1}, {0, 15, -1}),
                                           soup_triangle({0, -9, 1}, {0, 15, 1}, {0, 0, -9})};

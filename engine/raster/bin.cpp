@@ -35,11 +35,12 @@ class EdgeTest {
   int sign_;
 };
 
-struct Entry { uint32_t tile, triangle; };
+struct Run { uint32_t tile, first, length; };  // triangles first, first + 1, ...
 
-// The entries of one chunk on their way into lists by tile. Kept by a worker from chunk to chunk.
+// The entries of one chunk on their way into lists by tile. Kept by a worker from chunk to chunk. Runs, because small triangles that
+// are neighbours in a mesh often fall into one tile.
 struct EntryList {
-  AlignedBuffer<Entry> entries;
+  AlignedBuffer<Run> runs;
   size_t count = 0;
 
   void start(std::vector<uint32_t>& tile_start, int tiles) {
@@ -47,17 +48,21 @@ struct EntryList {
     tile_start.assign(static_cast<size_t>(tiles) + 1, 0);
   }
   void make_room(size_t n) {
-    if (count + n > entries.size()) entries.resize(2 * (count + n) + 4096);
+    if (count + n > runs.size()) runs.resize(2 * (count + n) + 4096);
   }
-  void add(uint32_t tile, uint32_t triangle, uint32_t* tile_count) {
-    entries[count++] = {tile, triangle};
-    ++tile_count[tile];
+  void add(uint32_t tile, uint32_t first, uint32_t length, uint32_t* tile_count) {
+    runs[count++] = {tile, first, length};
+    tile_count[tile] += length;
   }
   // Stable counting sort by tile. In: start[tile + 1] counts the tile's entries. Out: list[start[tile] .. start[tile + 1]).
   void sort(std::vector<uint32_t>& start, AlignedBuffer<uint32_t>& list) {
     for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    list.resize(count);
-    for (size_t i = 0; i < count; ++i) list[start[entries[i].tile]++] = entries[i].triangle;
+    list.resize(start.back());
+    for (const Run* run = runs.data(); run < runs.data() + count; ++run) {
+      uint32_t* const to = list.data() + start[run->tile];
+      for (uint32_t k = 0; k < run->length; ++k) to[k] = run->first + k;
+      start[run->tile] += run->length;
+    }
     // Each start has moved on to the next one's place.
     for (size_t i = start.size() - 1; i > 0; --i) start[i] = start[i - 1];
     start[0] = 0;
@@ -65,12 +70,14 @@ struct EntryList {
 };
 
 void bin_chunk(const TileGrid& grid, const SamplePlaces& samples, BinChunk& chunk, EntryList& opaque, EntryList& translucent) {
-  constexpr uint32_t kFewTiles = 4;  // up to so many the edge test costs more than it saves
+  constexpr uint32_t kFewTiles = 4;  // up to so many the edge test, and reading the triangle for it, costs more than it saves
   opaque.start(chunk.opaque_start, grid.count());
   translucent.start(chunk.translucent_start, grid.count());
   const uint32_t columns = static_cast<uint32_t>(grid.columns);
-  for (uint32_t i = 0; i < chunk.triangles.size(); ++i) {
-    const uint32_t box = chunk.tile_box[i];
+  const uint32_t* const tile_box = chunk.tile_box.data();
+  const uint32_t triangles = static_cast<uint32_t>(chunk.triangles.size());
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const uint32_t box = tile_box[i];
     const uint32_t column0 = box & 255, column1 = box >> 8 & 255, row0 = box >> 16 & 255, row1 = box >> 24;
     const bool blended = chunk.has_translucent && (chunk.triangles[i].flags & kMaterialTranslucent) != 0;
     EntryList& list = blended ? translucent : opaque;
@@ -78,15 +85,23 @@ void bin_chunk(const TileGrid& grid, const SamplePlaces& samples, BinChunk& chun
     const uint32_t tiles = (column1 - column0 + 1) * (row1 - row0 + 1);
     list.make_room(tiles);
     if (tiles == 1) {
-      list.add(row0 * columns + column0, i, tile_count);
+      const uint32_t first = i;
+      while (!chunk.has_translucent && i + 1 < triangles && tile_box[i + 1] == box) ++i;
+      list.add(row0 * columns + column0, first, i + 1 - first, tile_count);
+      continue;
+    }
+    const auto each_tile = [&](const auto& visit) {
+      for (uint32_t row = row0; row <= row1; ++row)
+        for (uint32_t column = column0; column <= column1; ++column) visit(row * columns + column);
+    };
+    if (tiles <= kFewTiles) {
+      each_tile([&](uint32_t tile) { list.add(tile, i, 1, tile_count); });
       continue;
     }
     const EdgeTest edges(chunk.triangles[i], samples);
-    for (uint32_t row = row0; row <= row1; ++row)
-      for (uint32_t column = column0; column <= column1; ++column) {
-        const uint32_t tile = row * columns + column;
-        if (tiles <= kFewTiles || edges.may_cover(grid, static_cast<int>(tile))) list.add(tile, i, tile_count);
-      }
+    each_tile([&](uint32_t tile) {
+      if (edges.may_cover(grid, static_cast<int>(tile))) list.add(tile, i, 1, tile_count);
+    });
   }
   opaque.sort(chunk.opaque_start, chunk.opaque);
   translucent.sort(chunk.translucent_start, chunk.translucent);

@@ -164,6 +164,7 @@ class RangeClipper {
     store_quads(bits_of(plane.min), bits_of(plane.max), depth0.low, depth0.high, quarter[2]);
     store_quads(dx.low, dx.high, dy.low, dy.high, quarter[3]);
     char* const out = reinterpret_cast<char*>(chunk_.triangles.data() + size);
+    for (int k = 0; k < 2 * kLanes; ++k) __builtin_prefetch(out + 64 * k, 1);  // what is written now and next
     for (int k = 0; k < n; ++k)
       for (int q = 0; q < 4; ++q) std::memcpy(out + 64 * k + 16 * q, quarter[q] + 4 * k, 16);
     counts_.triangles_drawn += static_cast<uint64_t>(n);
