@@ -31,7 +31,7 @@ class TileDepth {
   void refresh(const float* depth, const TileFrame& tile, uint32_t changed) {
     for (uint32_t left = changed; left != 0; left &= left - 1) {
       const int b = __builtin_ctz(left);
-      farthest_[b] = block(depth, tile, b % kPerSide, b / kPerSide);
+      farthest_[b] = block(depth, tile, b % kPerSide, b / kPerSide, farthest_[b]);
     }
     for (int q = 0; q < 4; ++q) {
       const float* const f = farthest_ + (q / 2) * 2 * kPerSide + (q % 2) * 2;
@@ -78,14 +78,19 @@ class TileDepth {
   }
 
  private:
-  // Pixels past the end of the picture do not count.
-  static HWY_INLINE float block(const float* depth, const TileFrame& tile, int bx, int by) {
+  // Pixels past the end of the picture do not count. before: what it was. As depths only grow, one pixel as far as that tells all; most
+  // often it is of the background.
+  static HWY_INLINE float block(const float* depth, const TileFrame& tile, int bx, int by, float before) {
     const int x0 = bx * kBlock, y0 = by * kBlock, y1 = std::min(y0 + kBlock, tile.rows);
     const F32 nearest = f32(1.0f);
     F32 least = nearest;
     for (int x = x0; x < x0 + kBlock; x += kLanes) {
       const Mask in_picture = lane_iota(x) < i32(tile.columns);
-      for (int y = y0; y < y1; ++y) least = min_(least, select(in_picture, F32::load(depth + y * kTileSize + x), nearest));
+      for (int y = y0; y < y1; ++y) {
+        const F32 row = select(in_picture, F32::load(depth + y * kTileSize + x), nearest);
+        if (any(row <= f32(before))) return before;
+        least = min_(least, row);
+      }
     }
     return min_of_lanes(least);
   }
