@@ -58,10 +58,19 @@ TEST(RayHigh, CompleteAndCheaper) {
     check_parts(scene, parts);
     EXPECT_TRUE(in_parts(parts));
     EXPECT_LE(parts.data().references, 1.2 * static_cast<double>(scene.triangles.size()));
-    EXPECT_LT(cost(whole), 0.9 * cost(fast));
+    EXPECT_LE(cost(whole), (small < 10000 ? 1 : 0.92) * cost(fast));  // of a small tree, the fast one's rounds leave nothing
     EXPECT_LT(cost(parts), 0.96 * cost(whole));
     EXPECT_LT(whole.memory_bytes(), 1.1 * static_cast<double>(fast.memory_bytes()));
   }
+}
+
+// Four rounds for the largest nodes: in a room, most of what can be gained. Without them the hall's tree costs 1.24 times that of all rounds.
+TEST(RayHigh, TheFastTreeIsNearlyAsCheapInARoom) {
+  const Loaded hall = must_load(std::string(SPANRAY_SOURCE_DIR) + "/assets/hall.toml");
+  const std::vector<uint32_t> flags(hall.scene().materials.size(), 0);
+  Parallel parallel(2);
+  const auto cost_of = [&](TreeQuality quality) { return cost(build_bvh(hall.scene(), flags.data(), 0, 0, parallel, quality, true)); };
+  EXPECT_LT(cost_of(TreeQuality::kFast), 1.12 * cost_of(TreeQuality::kHigh));
 }
 
 TEST(RayHigh, FewTriangles) {

@@ -24,18 +24,35 @@ struct BinaryTree {
   static uint32_t sibling(uint32_t node) { return node % 2 == 1 ? node + 1 : node - 1; }
 };
 
-// Every node after its parent.
-std::vector<uint32_t> top_down(const BinaryTree& tree);
+// So deep may splits by areas go: 28 levels more halve 2^28 triangles, and a wide node takes in up to seven levels.
+inline constexpr int kBinaryDepth = 400;
 
-// The tree that bvh_build.cpp would open into wide nodes: binned surface areas, with leaves of up to eight references.
-// refs: at least one, reordered. The same tree for any number of threads.
-BinaryTree build_binary(AlignedBuffer<Ref>& refs, Parallel& parallel);
+// All nodes, parents before their children and subtrees in one piece.
+struct Preorder {
+  struct Place { uint32_t node, size; };  // size: nodes of the subtree
+  std::vector<Place> place;
+  int depth = 0;  // nodes on the longest path
+  explicit Preorder(const BinaryTree& tree);
+};
+
+// Splits top-down by binned surface areas, with leaves of up to eight references.
+// Source:   Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
+// Input:    refs: at least one, reordered; bounds: of all of them. Below median_depth ranges are halved by count.
+// Contract: the same tree for any number of threads.
+BinaryTree build_binary(AlignedBuffer<Ref>& refs, const Bounds& bounds, Parallel& parallel, int median_depth = kBinaryDepth);
+
+// Whether sums of as many areas as there are nodes, and differences of them, are finite and more than noise.
+bool areas_add_up(const BinaryTree& tree);
+
+struct Reinsertion {
+  int most_rounds;
+  size_t share;  // a round tries one node in so many, those of the largest surface
+};
 
 // Takes subtrees out and puts them in where surface areas grow least.
 // Source:   Bittner, Hapala, Havran 2013, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies"; Meister and Bittner 2018,
 //           "Parallel Reinsertion for Bounding Volume Hierarchy Optimization".
-// Input:    boxes whose surface areas are finite.
-// Contract: the same tree for any number of threads. Leaves stay as they are.
-void reinsert(BinaryTree& tree, Parallel& parallel);
+// Contract: the same tree for any number of threads. Leaves stay as they are; so does all where areas do not add up.
+void reinsert(BinaryTree& tree, const Reinsertion& how, Parallel& parallel);
 
 }  // namespace spanray::bvh

@@ -8,8 +8,8 @@
 namespace spanray::bvh {
 
 struct WideTree {
-  std::vector<BvhNode> nodes;  // parents before their children
-  std::vector<TriangleBlock> blocks;
+  AlignedBuffer<BvhNode> nodes;  // parents before their children
+  AlignedBuffer<TriangleBlock> blocks;
   int depth = 0;
   size_t references = 0;  // triangles in leaves
   double cost = 0;        // the sum of half the surface areas of all nodes and leaves, as of BvhRefit::cost()
@@ -19,6 +19,6 @@ struct WideTree {
 // Source:   Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3.2.
 // Input:    refs: as build_binary() left them; surface areas are finite.
 // Output:   false, and nothing else, if the binary tree is so deep that the wide one would be deeper than kBvhMaxDepth.
-bool collapse(const SceneData& scene, const BinaryTree& binary, const AlignedBuffer<Ref>& refs, WideTree& wide);
+bool collapse(const SceneData& scene, const BinaryTree& binary, const AlignedBuffer<Ref>& refs, Parallel& parallel, WideTree& wide);
 
 }  // namespace spanray::bvh

@@ -8,6 +8,6 @@ namespace spanray::bvh {
 // less, long thin triangles stand in it in parts, each with a box of its own (ray/bvh_presplit.h); not if `whole`.
 // refs: at least one, may be reordered. Output: false, and nothing else, where the fast tree has to do: surface areas beyond what float holds,
 // or a tree that would be too deep. The same tree for any number of threads.
-bool build_high(const SceneData& scene, bool whole, AlignedBuffer<Ref>& refs, Parallel& parallel, WideTree& wide);
+bool build_high(const SceneData& scene, bool whole, AlignedBuffer<Ref>& refs, const Bounds& bounds, Parallel& parallel, WideTree& wide);
 
 }  // namespace spanray::bvh

@@ -1,12 +1,10 @@
-#include <limits>
-
 #include "ray/bvh_binary.h"
 
 namespace spanray::bvh {
 namespace {
 
-constexpr int kMostRounds = 20;
-constexpr size_t kShare = 5;         // a round tries one node in so many, those of the largest surface
+constexpr size_t kLeastTried = 256;  // nodes
+constexpr size_t kReserved = 128;    // nodes that wait: more are rare
 constexpr double kLeastGain = 1e-3;  // of the sum of all areas: a round that gains less is the last
 
 struct Move {
@@ -23,7 +21,7 @@ Box united(const Box& a, const Box& b) {
 // Where a subtree goes: it and what stands there get a common parent. Branch and bound from its sibling upwards.
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const BinaryTree& tree) : tree_(tree) {}
+  explicit PlaceFinder(const BinaryTree& tree) : tree_(tree) { open_.reserve(kReserved); }
 
   Move find(uint32_t node) {
     const Box box = tree_.box[node];
@@ -101,12 +99,13 @@ bool inside(const BinaryTree& tree, uint32_t node, uint32_t subtree) {
   return node == subtree;
 }
 
-// The best moves first, leaving out those that touch a better one. moves: gains are of the tree as it was.
-void apply_all(BinaryTree& tree, std::vector<Move>& moves) {
+// The best moves first, leaving out those that touch a better one. moves: gains are of the tree as it was. Returns what was gained.
+double apply_all(BinaryTree& tree, std::vector<Move>& moves) {
   std::sort(moves.begin(), moves.end(),
             [](const Move& a, const Move& b) { return a.gain != b.gain ? a.gain > b.gain : a.from < b.from; });
   std::vector<bool> touched(tree.nodes());
   const auto is_touched = [&](uint32_t n) { return touched[n]; };
+  double gain = 0;
   for (const Move& m : moves) {
     const uint32_t parent = tree.parent_of(m.from);
     const uint32_t nodes[] = {m.from, m.to, BinaryTree::sibling(m.from),
@@ -115,7 +114,9 @@ void apply_all(BinaryTree& tree, std::vector<Move>& moves) {
     if (std::any_of(nodes, nodes + 6, is_touched) || inside(tree, m.to, m.from)) continue;
     for (const uint32_t n : nodes) touched[n] = true;
     apply(tree, m);
+    gain += static_cast<double>(m.gain);
   }
+  return gain;
 }
 
 double area_sum(const BinaryTree& tree) {
@@ -126,8 +127,8 @@ double area_sum(const BinaryTree& tree) {
 
 // The `count` nodes of the largest surfaces below the root, in no order.
 std::vector<uint32_t> largest(const BinaryTree& tree, size_t count) {
-  std::vector<std::pair<float, uint32_t>> nodes;
-  for (uint32_t n = 1; n < tree.nodes(); ++n) nodes.push_back({-tree.box[n].half_area(), n});
+  std::vector<std::pair<float, uint32_t>> nodes(tree.nodes() - 1);
+  for (uint32_t n = 1; n < tree.nodes(); ++n) nodes[n - 1] = {-tree.box[n].half_area(), n};
   if (count < nodes.size()) std::nth_element(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(count), nodes.end());
   nodes.resize(std::min(count, nodes.size()));
   std::vector<uint32_t> ids;
@@ -137,21 +138,28 @@ std::vector<uint32_t> largest(const BinaryTree& tree, size_t count) {
 
 }  // namespace
 
-void reinsert(BinaryTree& tree, Parallel& parallel) {
-  constexpr size_t kChunk = 256;
-  double before = area_sum(tree);
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<uint32_t> candidates = largest(tree, std::max<size_t>(tree.nodes() / kShare, kChunk));
-    std::vector<Move> moves(candidates.size());
+bool areas_add_up(const BinaryTree& tree) {
+  const float area = tree.box[0].half_area();
+  return area > 1e-25f && area < 1e25f;
+}
+
+void reinsert(BinaryTree& tree, const Reinsertion& how, Parallel& parallel) {
+  constexpr size_t kChunk = 64;
+  if (!areas_add_up(tree)) return;
+  double sum = area_sum(tree);
+  // Once for all rounds: which nodes are the largest changes little, and finding them takes longer than a round of few.
+  const std::vector<uint32_t> candidates = largest(tree, std::max<size_t>(tree.nodes() / how.share, kLeastTried));
+  std::vector<Move> moves;
+  for (int round = 0; round < how.most_rounds; ++round) {
+    moves.resize(candidates.size());
     parallel.for_each((candidates.size() + kChunk - 1) / kChunk, [&](size_t c, int) {
       PlaceFinder finder(tree);
       for (size_t i = c * kChunk; i < std::min(candidates.size(), (c + 1) * kChunk); ++i) moves[i] = finder.find(candidates[i]);
     });
     std::erase_if(moves, [](const Move& m) { return m.to == 0; });
-    apply_all(tree, moves);
-    const double after = area_sum(tree);
-    if (!(before - after > kLeastGain * before)) return;
-    before = after;
+    const double gain = apply_all(tree, moves);
+    if (!(gain > kLeastGain * sum)) return;
+    sum -= gain;
   }
 }
 

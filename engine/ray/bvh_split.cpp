@@ -10,173 +10,236 @@
 namespace spanray::bvh {
 namespace {
 
-constexpr int kBins = 16;
-constexpr uint32_t kChunk = 8192;
+constexpr int kMostBins = 16, kLeastBins = 4;
+constexpr uint32_t kRefsOfABin = 2;   // small ranges have fewer bins: they are many, and sweeps over bins most of their time
+constexpr ptrdiff_t kTwoSets = 128;   // references; see Bins::fill()
+constexpr uint32_t kChunk = 8192;     // references of a task where a larger range is worked on
 constexpr float kTraversalCost = 0.4f;  // of one binary level of an eight-wide node, in units of one block test
 
-// A quarter of lo + hi: halves of the sum of two finite floats may overflow, and so may the range of such halves.
-F4 centroid(const Box& b) { return 0.25f * b.lo + 0.25f * b.hi; }
-
-struct Bounds {
-  Box box = Box::empty();
-  Box centroids = Box::empty();
-};
-
 struct BinGrid {
-  F4 origin, scale;  // bin = (centroid - origin) * scale, in [0, kBins); scale 0: the axis has no extent
+  F4 origin, scale;  // bin = (centroid - origin) * scale, in [0, bins); scale 0: the axis has no extent
+  int bins;
+  I4 bins_of(const Box& b) const { return __builtin_convertvector((centroid(b) - origin) * scale, I4); }
 };
 
-struct Bins {
-  Box box[3][kBins];
-  uint32_t count[3][kBins];
-  Bins() {
-    for (int k = 0; k < 3; ++k)
-      for (int b = 0; b < kBins; ++b) box[k][b] = Box::empty(), count[k][b] = 0;
-  }
-  void add(const Bins& o) {
-    for (int k = 0; k < 3; ++k)
-      for (int b = 0; b < kBins; ++b) box[k][b].add(o.box[k][b]), count[k][b] += o.count[k][b];
-  }
-};
-
-Bounds bounds_of(const Ref* refs, uint32_t begin, uint32_t end) {
-  Bounds r;
-  for (uint32_t i = begin; i < end; ++i) {
-    r.box.add(refs[i].box), r.centroids.add(Box::of(centroid(refs[i].box)));
-  }
-  return r;
-}
-
-BinGrid make_grid(const Box& c) {
-  BinGrid g{F4{}, F4{}};
+BinGrid make_grid(const Box& c, uint32_t n) {
+  BinGrid g{F4{}, F4{}, std::clamp(static_cast<int>(n / kRefsOfABin), kLeastBins, kMostBins)};
   for (int k = 0; k < 3; ++k) {
     const float extent = c.hi[k] - c.lo[k];
     g.origin[k] = c.lo[k];
-    g.scale[k] = extent > 1e-36f ? static_cast<float>(kBins) * 0.9999f / extent : 0.0f;
+    g.scale[k] = extent > 1e-36f ? static_cast<float>(g.bins) * 0.9999f / extent : 0.0f;
   }
   return g;
 }
 
-void fill_bins(const Ref* refs, uint32_t begin, uint32_t end, const BinGrid& grid, Bins& bins) {
-  for (uint32_t i = begin; i < end; ++i) {
-    const Box b = refs[i].box;
-    const I4 at = __builtin_convertvector((centroid(b) - grid.origin) * grid.scale, I4);
-    for (int k = 0; k < 3; ++k) bins.box[k][at[k]].add(b), ++bins.count[k][at[k]];
+// The same bin of the three axes side by side.
+struct Bins {
+  Box box[kMostBins][3];
+  int32_t count[kMostBins][4];
+  explicit Bins(int bins = kMostBins) {
+    for (int b = 0; b < bins; ++b) {
+      for (Box& of_axis : box[b]) of_axis = Box::empty();
+      std::fill_n(count[b], 4, 0);
+    }
   }
+  void add(const Bins& o, int bins = kMostBins) {
+    for (int b = 0; b < bins; ++b)
+      for (int k = 0; k < 3; ++k) box[b][k].add(o.box[b][k]), count[b][k] += o.count[b][k];
+  }
+  void add(const Ref& r, const BinGrid& grid) {
+    const Box b = r.box;
+    const I4 at = grid.bins_of(b);
+    for (int k = 0; k < 3; ++k) {
+      const auto bin = static_cast<uint32_t>(at[k]);
+      box[bin][k].add(b), ++count[bin][k];
+    }
+  }
+  // Neighbours often fall into one bin, and each waits for the one before it to be stored: so two halves take turns, in bins of their own.
+  void fill(const Ref* begin, const Ref* end, const BinGrid& grid) {
+    if (end - begin < kTwoSets) {
+      for (const Ref* r = begin; r < end; ++r) add(*r, grid);
+      return;
+    }
+    Bins other(grid.bins);
+    const ptrdiff_t half = (end - begin) / 2;
+    for (ptrdiff_t i = 0; i < half; ++i) add(begin[i], grid), other.add(begin[half + i], grid);
+    if (((end - begin) & 1) != 0) add(end[-1], grid);
+    add(other, grid.bins);
+  }
+};
+
+// Half the surface areas of three boxes.
+F4 half_areas(const Box (&b)[3]) {
+  const F4 d0 = b[0].hi - b[0].lo, d1 = b[1].hi - b[1].lo, d2 = b[2].hi - b[2].lo;
+  const F4 low = __builtin_shufflevector(d0, d1, 0, 4, 1, 5), high = __builtin_shufflevector(d0, d1, 2, 6, 3, 7);
+  const F4 x = __builtin_shufflevector(low, d2, 0, 1, 4, 4), y = __builtin_shufflevector(low, d2, 2, 3, 5, 5);
+  const F4 z = __builtin_shufflevector(high, d2, 0, 1, 6, 6);
+  return x * y + y * z + z * x;
 }
 
 // Blocks of eight cost the same however full: this fills leaves.
-float block_cost(const Box& box, uint32_t count) {
-  return box.half_area() * static_cast<float>((count + kBvhWidth - 1) / kBvhWidth);
+F4 block_costs(const Box (&box)[3], I4 count) {
+  return half_areas(box) * __builtin_convertvector((count + (kBvhWidth - 1)) >> 3, F4);
 }
 
-// The cheapest plane over all axes; ties to the first. Leaves range.axis at -1 if no plane separates anything.
-float choose_split(const Bins& bins, const BinGrid& grid, Range& range) {
-  float best = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    if (grid.scale[k] == 0.0f) continue;
-    float right_cost[kBins];
-    uint32_t right_count[kBins];
-    Box box = Box::empty();
-    uint32_t count = 0;
-    for (int b = kBins - 1; b > 0; --b) {
-      box.add(bins.box[k][b]);
-      count += bins.count[k][b];
-      right_cost[b] = count > 0 ? block_cost(box, count) : 0.0f;
-      right_count[b] = count;
-    }
-    box = Box::empty(), count = 0;
-    for (int b = 0; b + 1 < kBins; ++b) {
-      box.add(bins.box[k][b]);
-      count += bins.count[k][b];
-      if (count == 0 || right_count[b + 1] == 0) continue;
-      const float cost = block_cost(box, count) + right_cost[b + 1];
-      if (cost < best) {
-        best = cost;
-        range.axis = k, range.bin = b, range.origin = grid.origin[k], range.scale = grid.scale[k];
-      }
-    }
+// The references in bins up to `bin` of an axis go left. Axis -1: no plane separates the centroids.
+struct Plane {
+  int axis = -1, bin = 0;
+  float cost = std::numeric_limits<float>::infinity();
+};
+
+I4 load(const int32_t (&four)[4]) { return I4{four[0], four[1], four[2], four[3]}; }
+
+// The cheapest plane over all axes; ties to the first. Lanes are axes.
+Plane choose_plane(const Bins& bins, const BinGrid& grid) {
+  F4 right_cost[kMostBins];
+  I4 right_count[kMostBins];
+  Box box[3] = {Box::empty(), Box::empty(), Box::empty()};
+  I4 count{};
+  for (int b = grid.bins - 1; b > 0; --b) {
+    for (int k = 0; k < 3; ++k) box[k].add(bins.box[b][k]);
+    count += load(bins.count[b]);
+    right_cost[b] = block_costs(box, count), right_count[b] = count;
   }
-  return best;
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  F4 best = {inf, inf, inf, inf};
+  I4 best_bin{};
+  std::fill_n(box, 3, Box::empty()), count = I4{};
+  for (int b = 0; b + 1 < grid.bins; ++b) {
+    for (int k = 0; k < 3; ++k) box[k].add(bins.box[b][k]);
+    count += load(bins.count[b]);
+    const F4 cost = block_costs(box, count) + right_cost[b + 1];
+    const I4 better = (cost < best) & (count > 0) & (right_count[b + 1] > 0);
+    best = better ? cost : best;
+    best_bin = better ? I4{b, b, b, b} : best_bin;
+  }
+  Plane plane;
+  for (int k = 0; k < 3; ++k)
+    if (grid.scale[k] != 0.0f && best[k] < plane.cost) plane = {k, best_bin[k], best[k]};
+  return plane;
 }
 
-bool goes_left(const Ref& ref, const Range& r) { return static_cast<int>((centroid(ref.box)[r.axis] - r.origin) * r.scale) <= r.bin; }
+// Where a part of a split is being written.
+struct Parts {
+  Ref *left, *right;         // the next ones
+  ptrdiff_t right_step;
+  Box left_centroids = Box::empty(), right_centroids = Box::empty();
+};
+
+// Copies references to their parts, without branches: they would go wrong every third time.
+template <int kAxis> void distribute(const Ref* begin, const Ref* end, const BinGrid& grid, int bin, Parts& parts) {
+  Ref *left = parts.left, *right = parts.right;
+  Box in_left = parts.left_centroids, in_right = parts.right_centroids;
+  const ptrdiff_t step = parts.right_step;
+  for (const Ref* r = begin; r < end; ++r) {
+    const Ref ref = *r;
+    const F4 c = centroid(ref.box);
+    const I4 at = __builtin_convertvector((c - grid.origin) * grid.scale, I4);
+    const I4 goes_left = __builtin_shufflevector(at, at, kAxis, kAxis, kAxis, kAxis) <= bin;
+    // NaN is neither less nor greater.
+    const F4 if_left = reinterpret_cast<F4>(reinterpret_cast<I4>(c) | ~goes_left);
+    const F4 if_right = reinterpret_cast<F4>(reinterpret_cast<I4>(c) | goes_left);
+    in_left.add(Box::of(if_left)), in_right.add(Box::of(if_right));
+    const bool l = goes_left[0] != 0;
+    *(l ? left : right) = ref;
+    left += l, right += l ? 0 : step;
+  }
+  parts = {left, right, step, in_left, in_right};
+}
+
+void distribute(const Ref* begin, const Ref* end, const BinGrid& grid, const Plane& plane, Parts& parts) {
+  if (plane.axis == 0) distribute<0>(begin, end, grid, plane.bin, parts);
+  else if (plane.axis == 1) distribute<1>(begin, end, grid, plane.bin, parts);
+  else distribute<2>(begin, end, grid, plane.bin, parts);
+}
+
+// The boxes of the two parts, and where the second begins.
+void take_boxes(const Bins& bins, const BinGrid& grid, const Plane& plane, Range& left, Range& right) {
+  uint32_t count = 0;
+  for (int b = 0; b < grid.bins; ++b) {
+    (b <= plane.bin ? left : right).bounds.box.add(bins.box[b][plane.axis]);
+    if (b <= plane.bin) count += static_cast<uint32_t>(bins.count[b][plane.axis]);
+  }
+  left.end = right.begin = left.begin + count;
+}
+
+uint32_t chunks_of(const Range& range) { return (range.count() + kChunk - 1) / kChunk; }
+
+void for_chunks(const Range& range, Parallel* parallel,
+                const std::function<void(uint32_t chunk, uint32_t first, uint32_t last)>& work) {
+  const auto one = [&](size_t c, int) {
+    const uint32_t first = static_cast<uint32_t>(c) * kChunk;  // from the range's begin
+    work(static_cast<uint32_t>(c), first, std::min(first + kChunk, range.count()));
+  };
+  if (parallel != nullptr) return parallel->for_each(chunks_of(range), one);
+  for (uint32_t c = 0; c < chunks_of(range); ++c) one(c, 0);
+}
+
+// A stable partition has one result, whoever computes it: each chunk knows from its bins how many it has for the left.
+void distribute_chunks(const Range& range, Parallel* parallel, const Ref* from, Ref* to, const std::vector<Bins>& bins,
+                       const BinGrid& grid, const Plane& plane, Range& left, Range& right) {
+  std::vector<Parts> parts(bins.size());
+  Ref *to_left = to, *to_right = to + left.count();
+  for (size_t c = 0; c < bins.size(); ++c) {
+    parts[c] = {to_left, to_right, 1};
+    uint32_t goes_left = 0;
+    for (int b = 0; b <= plane.bin; ++b) goes_left += static_cast<uint32_t>(bins[c].count[b][plane.axis]);
+    to_left += goes_left;
+    to_right += std::min(kChunk, range.count() - static_cast<uint32_t>(c) * kChunk) - goes_left;
+  }
+  for_chunks(range, parallel, [&](uint32_t c, uint32_t first, uint32_t last) {
+    distribute(from + first, from + last, grid, plane, parts[c]);
+  });
+  for (const Parts& p : parts) left.bounds.centroids.add(p.left_centroids), right.bounds.centroids.add(p.right_centroids);
+}
 
 }  // namespace
 
-Range Splitter::analyse(uint32_t begin, uint32_t end, bool by_median) const {
-  Range range;
-  range.begin = begin, range.end = end;
-  const uint32_t n = end - begin;
-  const uint32_t chunks = n > kSubtreeSize ? (n + kChunk - 1) / kChunk : 1;
-  const auto for_chunks = [&](const std::function<void(uint32_t, uint32_t, uint32_t)>& work) {
-    const auto one = [&](size_t c, int) {
-      const uint32_t first = begin + static_cast<uint32_t>(c) * kChunk;
-      work(static_cast<uint32_t>(c), first, std::min(first + kChunk, end));
-    };
-    if (parallel_ != nullptr) return parallel_->for_each(chunks, one);
-    for (uint32_t c = 0; c < chunks; ++c) one(c, 0);
-  };
-
-  Bounds bounds;
-  if (chunks == 1) {
-    bounds = bounds_of(refs_, begin, end);
-  } else {
-    std::vector<Bounds> parts(chunks);
-    for_chunks([&](uint32_t c, uint32_t a, uint32_t b) { parts[c] = bounds_of(refs_, a, b); });
-    for (const Bounds& p : parts) bounds.box.add(p.box), bounds.centroids.add(p.centroids);
-  }
-  range.box = bounds.box;
-  range.leaf = n <= 2;
-  if (range.leaf || by_median) {
-    range.leaf = n <= kBvhWidth;
-    return range;
-  }
-
-  const BinGrid grid = make_grid(bounds.centroids);
-  Bins bins;
-  if (chunks == 1) {
-    fill_bins(refs_, begin, end, grid, bins);
-  } else {
-    std::vector<Bins> parts(chunks);
-    for_chunks([&](uint32_t c, uint32_t a, uint32_t b) { fill_bins(refs_, a, b, grid, parts[c]); });
-    for (const Bins& p : parts) bins.add(p);
-  }
-  const float cost = choose_split(bins, grid, range);
-  const float area = range.box.half_area();
-  range.leaf = n <= kBvhWidth && !(kTraversalCost * area + cost < area);
-  return range;
+void Splitter::halve(const Range& range, Range& left, Range& right) const {
+  left.end = right.begin = range.begin + range.count() / 2;
+  left.second = right.second = range.second;
+  for (Range* part : {&left, &right})
+    for (const Ref *r = refs(*part), *end = r + part->count(); r < end; ++r) part->bounds.add(*r);
 }
 
-uint32_t Splitter::partition(const Range& range) const {
-  if (range.axis < 0) return range.begin + range.count() / 2;
-  if (range.count() > kSubtreeSize) return partition_parallel(range);
-  Ref* const middle =
-      std::partition(refs_ + range.begin, refs_ + range.end, [&](const Ref& r) { return goes_left(r, range); });
-  return static_cast<uint32_t>(middle - refs_);
-}
-
-// A stable partition has one result, whoever computes it: counts a chunk, prefix sums, scatter, copy back.
-uint32_t Splitter::partition_parallel(const Range& range) const {
-  const uint32_t chunks = (range.count() + kChunk - 1) / kChunk;
-  std::vector<uint32_t> left(chunks);
-  const auto first = [&](size_t c) { return range.begin + static_cast<uint32_t>(c) * kChunk; };
-  const auto last = [&](size_t c) { return std::min(first(c) + kChunk, range.end); };
-  const auto run = [&](const std::function<void(size_t, int)>& body) {
-    if (parallel_ != nullptr) return parallel_->for_each(chunks, body);
-    for (uint32_t c = 0; c < chunks; ++c) body(c, 0);
-  };
-  run([&](size_t c, int) {
-    left[c] = static_cast<uint32_t>(std::count_if(refs_ + first(c), refs_ + last(c), [&](const Ref& r) { return goes_left(r, range); }));
-  });
-  uint32_t total = 0;
-  for (uint32_t& l : left) total += std::exchange(l, total);
-  run([&](size_t c, int) {
-    uint32_t to_left = range.begin + left[c], to_right = range.begin + total + (first(c) - range.begin) - left[c];
-    for (uint32_t i = first(c); i < last(c); ++i) scratch_[goes_left(refs_[i], range) ? to_left++ : to_right++] = refs_[i];
-  });
-  run([&](size_t c, int) { std::copy(scratch_ + first(c), scratch_ + last(c), refs_ + first(c)); });
-  return range.begin + total;
+bool Splitter::split(const Range& range, bool by_median, Range& left, Range& right) const {
+  const uint32_t n = range.count();
+  if (n <= (by_median ? uint32_t{kBvhWidth} : 2u)) return false;
+  left = right = Range{range.begin, range.end, !range.second, {}};
+  if (by_median) {
+    halve(range, left, right);
+    return true;
+  }
+  const Ref* const from = refs(range);
+  const BinGrid grid = make_grid(range.bounds.centroids, n);
+  const bool whole = n <= kSubtreeSize;
+  Bins bins(grid.bins);
+  std::vector<Bins> chunk_bins(whole ? 0 : chunks_of(range));
+  if (whole) {
+    bins.fill(from, from + n, grid);
+  } else {
+    for_chunks(range, parallel_, [&](uint32_t c, uint32_t first, uint32_t last) {
+      chunk_bins[c].fill(from + first, from + last, grid);
+    });
+    for (const Bins& b : chunk_bins) bins.add(b);
+  }
+  const Plane plane = choose_plane(bins, grid);
+  const float area = range.bounds.box.half_area();
+  if (n <= kBvhWidth && !(kTraversalCost * area + plane.cost < area)) return false;
+  if (plane.axis < 0) {
+    halve(range, left, right);
+    return true;
+  }
+  take_boxes(bins, grid, plane, left, right);
+  Ref* const to = array_[left.second] + range.begin;
+  if (!whole) {
+    distribute_chunks(range, parallel_, from, to, chunk_bins, grid, plane, left, right);
+    return true;
+  }
+  Parts parts{to, to + n - 1, -1};
+  distribute(from, from + n, grid, plane, parts);
+  left.bounds.centroids = parts.left_centroids, right.bounds.centroids = parts.right_centroids;
+  return true;
 }
 
 }  // namespace spanray::bvh

@@ -44,33 +44,41 @@ struct Ref {
   static uint32_t mantissa(float x) { return std::bit_cast<uint32_t>(x) & kMantissa; }
 };
 
-// A range of references with the way to split it.
+// A quarter of lo + hi: halves of the sum of two finite floats may overflow, and so may the range of such halves.
+inline F4 centroid(const Box& b) { return 0.25f * b.lo + 0.25f * b.hi; }
+
+// What a set of references lies in.
+struct Bounds {
+  Box box = Box::empty(), centroids = Box::empty();
+  void add(const Ref& r) { box.add(r.box), centroids.add(Box::of(centroid(r.box))); }
+  void add(const Bounds& o) { box.add(o.box), centroids.add(o.centroids); }
+};
+
+// References begin to end - 1 of one of two arrays.
 struct Range {
   uint32_t begin = 0, end = 0;
-  Box box;
-  int axis = -1;              // -1: no plane separates the centroids, split in the middle
-  int bin = 0;                // references in bins up to this one go left
-  float origin = 0, scale = 0;  // bin = (centroid - origin) * scale
-  bool leaf = false;
+  bool second = false;  // which array
+  Bounds bounds;
   uint32_t count() const { return end - begin; }
 };
 
-// Splits ranges of one array of references in place. Results depend on the references only: ranges above a fixed size are
-// worked on in fixed chunks, merged by exact minima, maxima and integer sums, by however many threads there are.
+// Splits ranges of references, which go from one array to the other on the way down. Results depend on the references only: ranges above
+// kSubtreeSize are worked on in fixed chunks, merged by exact minima, maxima and integer sums, by however many threads there are.
 class Splitter {
  public:
-  // `parallel` may be null: then everything runs in the calling thread, with the same result.
-  Splitter(Ref* refs, Ref* scratch, Parallel* parallel) : refs_(refs), scratch_(scratch), parallel_(parallel) {}
+  // Two arrays of as many references, all in the first. `parallel` may be null: then everything runs in the calling thread, with the
+  // same result.
+  Splitter(Ref* first, Ref* second, Parallel* parallel) : array_{first, second}, parallel_(parallel) {}
 
-  // Bounds and best split of [begin, end), begin < end. by_median: no surface-area split, for trees that grow too deep.
-  Range analyse(uint32_t begin, uint32_t end, bool by_median) const;
-  // Reorders a non-leaf range; returns the first index of its right part, begin < middle < end.
-  uint32_t partition(const Range& range) const;
+  // The two parts of a range at its best split, both not empty; false if it should rather be a leaf, of at most kBvhWidth references.
+  // by_median: halves by count, for trees that grow too deep.
+  bool split(const Range& range, bool by_median, Range& left, Range& right) const;
+  // Where the references of a range are.
+  Ref* refs(const Range& range) const { return array_[range.second] + range.begin; }
 
  private:
-  uint32_t partition_parallel(const Range& range) const;
-  Ref* refs_;
-  Ref* scratch_;
+  void halve(const Range& range, Range& left, Range& right) const;
+  Ref* array_[2];
   Parallel* parallel_;
 };
 
