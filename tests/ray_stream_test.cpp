@@ -57,5 +57,40 @@ TEST(RayStream, ScatteredRaysEqualBruteForceInAnyOrder) {
   EXPECT_GT(ends, 100);
 }
 
+// Boxes without thickness, met at their very edges and corners, and rays along axes and in the planes of boxes: what culls must take all that
+// slab() of ray/triangle_test.h takes, by which hit_triangle() decides.
+TEST(RayStream, BoxesMetAtTheirEdges) {
+  TestRandom random(42);
+  std::vector<SoupTriangle> soup;
+  for (int i = 0; i < 400; ++i) {  // in planes across an axis
+    const glm::dvec3 corner = random_point(random, 1);
+    glm::dvec3 u(0), v(0);
+    u[(i + 1) % 3] = random.uniform(-0.2, 0.2), v[(i + 2) % 3] = random.uniform(-0.2, 0.2);
+    soup.push_back(soup_triangle(corner, corner + u, corner + v));
+  }
+  auto t = frame_of(soup);
+  const Bvh bvh = build_all(*t);
+  int hits = 0;
+  for (int batch = 0; batch < 40; ++batch) {
+    constexpr int kRays = 512;
+    RayBatch rays = make_rays(kRays);
+    const glm::dvec3 center = random_point(random, 0.9);
+    for (int i = 0; i < kRays; ++i) {
+      const uint32_t triangle = static_cast<uint32_t>(random.below(400)), corner = static_cast<uint32_t>(i % 3);
+      const glm::dvec3 at = scene_vertex(t->scene, triangle, corner), next = scene_vertex(t->scene, triangle, (corner + 1) % 3);
+      const glm::dvec3 target = i % 4 == 0 ? at : at + (next - at) * random.uniform(0, 1);
+      glm::dvec3 origin = center + random_point(random, 0.05);
+      if (i % 5 == 0) origin[i % 3] = target[i % 3];                              // in a plane across an axis
+      if (i % 10 == 0) origin[(i + 1) % 3] = target[(i + 1) % 3];                 // along an axis
+      if (i % 7 == 0) origin = target - (target - origin) * random.uniform(0, 1e-4);  // close by
+      set_ray(rays, i, origin, target - origin, i % 2 == 0 ? kInfinity : 1.0f);
+    }
+    const Answers want = brute_force(*t, rays);
+    hits += static_cast<int>(std::count(want.any.begin(), want.any.end(), true));
+    for (const Isa isa : supported_isas()) expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
+  }
+  EXPECT_GT(hits, 4000);
+}
+
 }  // namespace
 }  // namespace spanray

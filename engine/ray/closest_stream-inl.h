@@ -85,7 +85,7 @@ class ClosestStream {
   }
 
   HWY_INLINE void leaf(const Bvh::Data& data, const Batch& batch, const Entry& entry) {
-    visit_leaf_together<ClosestVisitor>(data, entry.child, entry.rays, rays_, [&](int r, const AtLeaf& at) HWY_ATTR {
+    visit_leaf_together<ClosestVisitor>(data, entry.child, entry.rays, rays_.ray, rays_.limit, [&](int r, const AtLeaf& at) HWY_ATTR {
       with_visitor(data, batch, r, [&](ClosestVisitor& v) HWY_ATTR { at.visit(rays_.ray[r], v); });
     });
   }
