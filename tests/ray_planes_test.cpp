@@ -23,14 +23,6 @@ std::unique_ptr<TestFrame> frame_with(const std::vector<SoupTriangle>& soup, con
   return make_test_frame(std::move(scene), Camera(), test_settings(16, 16));
 }
 
-int add_ray(RayBatch& rays, const glm::dvec3& o, const glm::dvec3& d, float t_max = kInf, uint32_t from = kNoPrimitive) {
-  const int i = rays.count;
-  rays.resize(i + 1, false), rays.from.resize(static_cast<size_t>(i) + 1);
-  for (int k = 0; k < 3; ++k) rays.origin[k][i] = static_cast<float>(o[k]), rays.direction[k][i] = static_cast<float>(d[k]);
-  rays.t_max[i] = t_max, rays.pixel[i] = 0, rays.from[i] = from;
-  return i;
-}
-
 // The hit of an exact primitive, by its own function and nothing else.
 struct Nearest {
   uint32_t primitive = kNoPrimitive;

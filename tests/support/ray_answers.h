@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,16 @@
 #include "support/awkward_rays.h"
 
 namespace spanray {
+
+// Adds a ray that leaves primitive `from`. Returns its number.
+inline int add_ray(RayBatch& rays, const glm::dvec3& o, const glm::dvec3& d, float t_max = std::numeric_limits<float>::infinity(),
+                   uint32_t from = kNoPrimitive) {
+  const int i = rays.count;
+  rays.resize(i + 1, false), rays.from.resize(static_cast<size_t>(i) + 1);
+  for (int k = 0; k < 3; ++k) rays.origin[k][i] = static_cast<float>(o[k]), rays.direction[k][i] = static_cast<float>(d[k]);
+  rays.t_max[i] = t_max, rays.pixel[i] = 0, rays.from[i] = from;
+  return i;
+}
 
 struct Answers {
   std::vector<uint32_t> closest;

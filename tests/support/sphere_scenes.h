@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "math/vec.h"
+#include "reference/reference.h"
 #include "scene/scene_builder.h"
 #include "spanray/render.h"
 #include "support/random.h"
@@ -83,6 +84,24 @@ inline uint64_t sphere_pixels(const Scene& scene, const Framebuffer& f) {
   uint64_t n = 0;
   for (const uint32_t p : f.primitive) n += p != kNoPrimitive && scene.data().is_sphere(p);
   return n;
+}
+
+// The frame shows what the reference shows, but for a few pixels at edges.
+inline void expect_reference(const Scene& scene, const Camera& camera, const Settings& settings) {
+  Framebuffer truth;
+  ASSERT_TRUE(render_reference(scene, camera, settings, {}, truth));
+  const Framebuffer fast = render(scene, camera, settings);
+  int over = 0, ids = 0;
+  for (size_t i = 0; i < fast.primitive.size(); ++i) {
+    ids += fast.primitive[i] != truth.primitive[i];
+    int most = 0;
+    for (size_t k = 4 * i; k < 4 * i + 4; ++k) most = std::max(most, std::abs(truth.color.rgba[k] - fast.color.rgba[k]));
+    over += most > 1;
+  }
+  const std::string where = "shading " + std::to_string(static_cast<int>(settings.shading)) + ", culling " + std::to_string(static_cast<int>(settings.culling)) +
+                            ", eye at z " + std::to_string(camera.eye[2]);
+  EXPECT_LE(ids, 10) << where;
+  EXPECT_LE(over, 30) << where;
 }
 
 }  // namespace spanray
