@@ -53,7 +53,7 @@ constexpr bvh::Reinsertion kQuickReinsertion{4, 50};
 void build_fast(const SceneData& scene, AlignedBuffer<Ref>& refs, const bvh::Bounds& bounds, Parallel& parallel, bvh::WideTree& wide) {
   bvh::BinaryTree tree = bvh::build_binary(refs, bounds, parallel);
   bvh::reinsert(tree, kQuickReinsertion, parallel);
-  if (!bvh::collapse(scene, tree, refs, parallel, wide))
+  if (!bvh::collapse(scene, tree, refs, parallel, wide))  // too deep; the other one cannot be, for a wide node takes in a level at least
     bvh::collapse(scene, bvh::build_binary(refs, bounds, parallel, kSafeDepth), refs, parallel, wide);
 }
 

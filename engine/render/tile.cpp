@@ -8,10 +8,10 @@
 #include "frame/ladder.h"
 #include "raster/raster.h"
 #include "render/slots_kernel.h"
+#include "render/tile_exact.h"
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
-#include "render/tile_exact.h"
 #include "shade/direct.h"
 
 namespace spanray {

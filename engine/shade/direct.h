@@ -14,7 +14,7 @@ struct DirectCounts {
 };
 
 // radiance[c][i] of each entry of hits (primary rays), the background's where it hit nothing; the same bits as the way through surfaces.
-// Writes whole vectors: up to 64 floats past count. planes: scratch.
+// Writes whole vectors: up to 15 floats past count. planes: scratch.
 DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]);
 
 using ShadeDirectFn = DirectCounts (*)(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]);

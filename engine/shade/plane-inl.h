@@ -267,7 +267,7 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
   store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
 }
 
-// Lanes whose primitive is a triangle: no miss, no sphere.
+// Lanes whose primitive is a triangle: no miss, no exact primitive.
 HWY_INLINE Mask hits_triangle(const SceneData& scene, I32 primitive) { return less_unsigned(primitive, i32(static_cast<uint32_t>(scene.triangles.size()))); }
 
 // Finds the planes of a block by triangle and cell.
@@ -301,7 +301,7 @@ HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
   for (const uint32_t v : scene.triangles[primitive].vertex) __builtin_prefetch(&scene.vertices[v]);
 }
 
-// The planes of up to kPlaneHits hits from `at` on; misses and spheres have none.
+// The planes of up to kPlaneHits hits from `at` on; misses and exact primitives have none.
 [[maybe_unused]] static void set_up_block(const Frame& frame, const HitBatch& hits, int at, PlaneBlock& block) {
   const int count = hits.count - at < kPlaneHits ? hits.count - at : kPlaneHits;
   const SceneData& scene = *frame.scene;
