@@ -51,7 +51,8 @@ HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
   Vec sum{F32::zero(), F32::zero(), F32::zero()};
   if (frame.plan.emission) sum = as_vec3(m.emission);
   if (!frame.plan.ambient) return sum;
-  return {mul_add(m.ambient.x, f32(ambient[0]), sum.x), mul_add(m.ambient.y, f32(ambient[1]), sum.y), mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
+  return {mul_add(m.ambient.x, f32(ambient[0]), sum.x), mul_add(m.ambient.y, f32(ambient[1]), sum.y),
+          mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
 }
 
 HWY_INLINE void add_material(const Frame& frame, Shaded& s) {
@@ -120,8 +121,8 @@ template <class Kind> struct OneLight {
 class DirectShader {
  public:
   DirectShader(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& memory, float* const radiance[3])
-      : frame_(frame), hits_(hits), radiance_(radiance), carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())),
-        stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
+      : frame_(frame), hits_(hits), radiance_(radiance),
+        carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())), stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
 
   DirectCounts shade() {
     static_assert(kPlaneHits % (kTogether * kLanes) == 0);
@@ -215,7 +216,8 @@ const ShadeDirectFn kShadeDirect[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_direct)
 bool can_shade_direct(const Frame& frame) {
   const PlanFlags& plan = frame.plan;
   return !plan.shadow_rays && !plan.bounces && !plan.translucents && !plan.lifted_rays && !plan.depths && !plan.weights && !plan.surfaces &&
-         !frame.scene->has_exact() && !frame.scene->triangles.empty() && (frame.settings.shading == Shading::kPhong || triangles_carry_light(frame));
+         !frame.scene->has_exact() && !frame.scene->triangles.empty() &&
+         (frame.settings.shading == Shading::kPhong || triangles_carry_light(frame));
 }
 
 DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]) {

@@ -69,7 +69,8 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
 }
 
 // Lanes of primary hits that planes do not serve (primary_point).
-[[maybe_unused]] static HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const OffsetLanes& offset, Mask good, PointLanes& point) {
+[[maybe_unused]] static HWY_NOINLINE void resolve_odd(const Frame& frame, const HitLanes& hits, const OffsetLanes& offset, Mask good,
+                                                      PointLanes& point) {
   const PrimaryRays& p = frame.primary;
   const auto [x, y] = places_of(hits.pixel, offset);
   const RayLanes ray = {broadcast(p.eye), broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y};
@@ -92,7 +93,8 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
 
 // put_triangle_light (primary-inl.h) for lanes whose triangles have no area: only their hits know where these face.
 template <class To>
-HWY_NOINLINE void put_light_without_area(const Frame& frame, int lights, const To& to, Mask lanes, const HitLanes& hits, const PointLanes& point) {
+HWY_NOINLINE void put_light_without_area(const Frame& frame, int lights, const To& to, Mask lanes, const HitLanes& hits,
+                                         const PointLanes& point) {
   const light_lanes::Viewer eye = light_lanes::eye_of(frame);
   const light_lanes::V3 geometric = as_vec3(point.geometric), weight = as_vec3(point.weight);
   for (int i = 0; i < lights; ++i)
@@ -111,8 +113,8 @@ HWY_NOINLINE void put_light_without_area(const Frame& frame, int lights, const T
 // The points of hits at .. at + kLanes - 1 of primary rays, those in `valid`, from their planes; with the light that their triangles carry.
 // to(light, factor): where the kLanes floats of SurfaceBatch::triangle_light go, for that many lights.
 template <class Planes, class To>
-HWY_INLINE void resolve_primary(const Frame& frame, const HitBatch& hits, int at, Mask valid, const Planes& planes, int lights, const To& to,
-                                PointLanes& point) {
+HWY_INLINE void resolve_primary(const Frame& frame, const HitBatch& hits, int at, Mask valid, const Planes& planes, int lights,
+                                const To& to, PointLanes& point) {
   const OffsetLanes offset = offsets_of(frame, hits, at);
   const Mask good = primary_point(frame, planes, I32::load(hits.pixel.data() + at), offset, point);
   const Mask odd = and_not(good, valid);

@@ -39,7 +39,8 @@ void shade_ambient_kernel(const Frame& frame, const SurfaceBatch& s, float* cons
 //           for every split of the batch. Against double: within 1/255 after encoding (tests/shade_light_test.cpp).
 template <class Kind> class AddLight {
  public:
-  AddLight(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const Light& light, const uint32_t* lit, float* const radiance[3])
+  AddLight(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const Light& light, const uint32_t* lit,
+           float* const radiance[3])
       : frame_(frame), s_(s), hits_(hits), light_(light), lanes_(broadcast_light(light)), lit_(lit), radiance_(radiance) {}
 
   void all() {
@@ -76,8 +77,9 @@ template <class Kind> class AddLight {
 
   HWY_INLINE void reflect(const Met& met) const {
     const Site site = site_of(met.at, met.active);
-    const Reflected factor = reflect_light(frame_, site, Kind::incidence(lanes_, site.position).direction, met, I32::load(s_.material + met.at),
-                                           F32::load(s_.shininess + met.at));
+    const V3 direction = Kind::incidence(lanes_, site.position).direction;
+    const Reflected factor =
+        reflect_light(frame_, site, direction, met, I32::load(s_.material + met.at), F32::load(s_.shininess + met.at));
     accumulate(s_, met.at, met.active, light_, factor, met.specular, radiance_);
   }
 

@@ -122,8 +122,8 @@ struct WeightPlanes {
 // not be computed: that decides nothing but time. From the anchor, an edge function times s is linear: least at a corner of the cell.
 // error, reach: kPlaneError of these planes.
 // Contract: conservative. No weight errs by more than kRoom / 4 where s > kLeastStep: its terms are at most 1 / kLeastStep.
-HWY_INLINE Mask cell_inside(const WeightPlanes& w, const TriangleLanes& t, F64 step_x, F64 step_y, const AnchorLanes& anchor, I32 cell, F32 error,
-                            F32 reach, F32 slimness) {
+HWY_INLINE Mask cell_inside(const WeightPlanes& w, const TriangleLanes& t, F64 step_x, F64 step_y, const AnchorLanes& anchor, I32 cell,
+                            F32 error, F32 reach, F32 slimness) {
   constexpr double kHalf = kCellSize / 2.0, kLeastStep = 0.25, kRoom = 0x1p-16;
   const F64 x = to_f64((cell & i32(0xffff)) - anchor.x) + f64(kHalf), y = to_f64(shift_right_logical<16>(cell) - anchor.y) + f64(kHalf);
   const auto least = [&](F64 at_anchor, F64 per_x, F64 per_y) HWY_ATTR {
@@ -260,7 +260,8 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
   store_plane(out, kPlaneSlimness, slimness);
   F32 inside = F32::zero();
   if (any(anchor.covers)) {
-    const Mask whole = anchor.covers & cell_inside(w, t, step_x, step_y, anchor, I32::load(block.cell + at), error.x, error.y + error.z, slimness);
+    const F32 reach_both = error.y + error.z;
+    const Mask whole = anchor.covers & cell_inside(w, t, step_x, step_y, anchor, I32::load(block.cell + at), error.x, reach_both, slimness);
     inside = select(whole & (dot(geometric, geometric) > F32::zero()), f32(1.0f), inside);
   }
   store_plane(out, kPlaneInside, inside);
@@ -309,7 +310,7 @@ HWY_INLINE void prefetch_vertices(const SceneData& scene, uint32_t primitive) {
   constexpr int kLag = 24;  // planes whose triangles are still on their way from memory
   constexpr int kTogether = 3;  // triangles of a vector whose lanes are found by one comparison each; the others one by one
   int fetched = 0;
-  uint32_t last = 0, last_primitive = kNoPrimitive, last_cell = 0;  // of the vector before, where it saw one triangle alone: most go on seeing it
+  uint32_t last = 0, last_primitive = kNoPrimitive, last_cell = 0;  // the last plane looked up: most vectors go on seeing it
   for (int i = 0; i < count; i += kLanes) {
     const I32 listed = I32::load(hits.primitive.data() + at + i);
     const Mask hit = hits_triangle(scene, listed);

@@ -123,8 +123,8 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   point.geometric = plane3(p, kPlaneGeometric);
   if (!Planes::kInside) {
     const F32 margin = mul_add(point.position_error, p.f(kPlaneSlimness), f32(0x1p-20f));
-    good = (single_s > zero) & (point.weight.x >= margin) & (point.weight.y >= margin) & (point.weight.z >= margin) & (point.position_error < f32(0x1p100f)) &
-           (dot(point.geometric, point.geometric) > zero);
+    good = (single_s > zero) & (point.weight.x >= margin) & (point.weight.y >= margin) & (point.weight.z >= margin) &
+           (point.position_error < f32(0x1p100f)) & (dot(point.geometric, point.geometric) > zero);
   }
 
   const PrimaryRays& rays = frame.primary;
@@ -155,7 +155,8 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
 }
 
 // What the triangles carry of that many lights: to(light, factor) says where kLanes floats of SurfaceBatch::triangle_light go.
-template <class Planes, class To> HWY_INLINE void put_triangle_light(const Frame& frame, int lights, const To& to, const Planes& p, const V3f& weight) {
+template <class Planes, class To>
+HWY_INLINE void put_triangle_light(const Frame& frame, int lights, const To& to, const Planes& p, const V3f& weight) {
   const bool corners = frame.settings.shading == Shading::kGouraud;
   int field = kPlaneLight;
   for (int i = 0; i < lights; ++i)

@@ -22,10 +22,11 @@ struct Met {
   int at;         // which vector, for the caller
 };
 
-// First step. active: the lanes that the light reaches by the geometric normal; then only those whose normal is turned to it as well. Returns
-// whether there are any. highlight(): the brightest channel of Ks.
+// First step. active: the lanes that the light reaches by the geometric normal; then only those whose normal is turned to it as well.
+// Returns whether there are any. highlight(): the brightest channel of Ks.
 template <class Highlight>
-HWY_INLINE bool meet_light(const Frame& frame, const Site& site, const Incidence& incidence, Mask active, const Highlight& highlight, Met& met) {
+HWY_INLINE bool meet_light(const Frame& frame, const Site& site, const Incidence& incidence, Mask active, const Highlight& highlight,
+                           Met& met) {
   met.n_l = formula::dot(site.normal, incidence.direction), met.attenuation = incidence.attenuation;
   met.active = active & (met.n_l > F32::zero());
   if (!any(met.active)) return false;
