@@ -54,15 +54,7 @@ TEST(RayPlanes, AsAskingEveryPrimitiveAtAllScalesAndOffsets) {
       const auto t = frame_with({}, spheres, planes);
       const Bvh bvh = build_all(*t);
       EXPECT_EQ(bvh.primitive_count(), 41u);
-      RayBatch rays;
-      for (int i = 0; i < 3000; ++i) {
-        const glm::dvec3 o = offset + random_point(random, 2 * scale);
-        glm::dvec3 d = offset + random_point(random, scale) - o;
-        if (i % 5 == 0) d[i % 3] = 0;
-        if (i % 7 == 0) d[(i + 1) % 3] = -0.0;
-        add_ray(rays, o, d, i % 3 == 0 ? static_cast<float>(random.uniform(0, 1)) : kInf,
-                i % 4 == 0 ? static_cast<uint32_t>(random.below(41)) : kNoPrimitive);
-      }
+      const RayBatch rays = crossing_rays(random, 3000, scale, offset, 41);
       for (const Culling culling : {Culling::kNone, Culling::kBack})
         for (const Isa isa : supported_isas()) {
           t->frame.settings.culling = culling;

@@ -92,15 +92,7 @@ TEST(RaySpheres, AsAskingEverySphereAtAllScalesAndOffsets) {
       TestRandom random(7);
       const glm::dvec3 offset = glm::dvec3(1, -2, 0.5) * (away * scale);
       const auto t = clutter(random, 30, 300, scale, offset);
-      RayBatch rays;
-      for (int i = 0; i < 3000; ++i) {
-        const glm::dvec3 o = offset + random_point(random, 2 * scale);
-        glm::dvec3 d = offset + random_point(random, scale) - o;
-        if (i % 5 == 0) d[i % 3] = 0;
-        if (i % 7 == 0) d[(i + 1) % 3] = -0.0;
-        add_ray(rays, o, d, i % 3 == 0 ? static_cast<float>(random.uniform(0, 1)) : kInf,
-                i % 4 == 0 ? static_cast<uint32_t>(random.below(330)) : kNoPrimitive);
-      }
+      const RayBatch rays = crossing_rays(random, 3000, scale, offset, 330);
       for (const Culling culling : {Culling::kNone, Culling::kBack}) {
         t->frame.settings.culling = culling;
         expect_as_all(*t, rays);

@@ -6,30 +6,16 @@
 #include "scene/coplanar.h"
 #include "spanray/query.h"
 #include "support/plane_scenes.h"
+#include "support/seen_pixels.h"
 
 namespace spanray {
 namespace {
 
 TEST(RenderPlanes, QuestionsAgreeWithFrames) {
   const Scene scene = landscape();
-  Settings s = test_settings(200, 130);
-  s.visibility = Visibility::kRay;
-  const Framebuffer f = render(scene, kLandscapeView, s);
-  const SceneQuery query(scene);
   int seen = 0;
-  for (int y = 0; y < s.height; y += 3)
-    for (int x = 0; x < s.width; x += 3) {
-      const size_t i = static_cast<size_t>(y * s.width + x);
-      const auto hit = query.pixel(kLandscapeView, s, x, y);
-      ASSERT_TRUE(hit);
-      ASSERT_EQ(hit.value().has_value(), f.primitive[i] != kNoPrimitive);
-      if (!hit.value()) continue;
-      ASSERT_EQ(hit.value()->name.triangle, f.primitive[i]) << x << "," << y;
-      ASSERT_EQ(hit.value()->name.plane, scene.data().is_plane(f.primitive[i]));
-      const double z = kLandscapeView.near_plane / double{f.depth[i]};
-      ASSERT_NEAR(hit.value()->t + kLandscapeView.near_plane, z, 1e-6 * z);
-      seen += hit.value()->name.plane;
-    }
+  expect_questions_agree(scene, kLandscapeView, test_settings(200, 130), [](double z) { return 1e-6 * z; },
+                         [&](uint32_t primitive) { return scene.data().is_plane(primitive); }, seen);
   EXPECT_GT(seen, 1000);
 }
 

@@ -6,7 +6,7 @@
 
 #include "render/trace_pixel.h"
 #include "spanray/query.h"
-#include "support/sphere_scenes.h"
+#include "support/seen_pixels.h"
 
 namespace spanray {
 namespace {
@@ -19,17 +19,8 @@ TEST(RenderSpheres, WhySaysWhatThePictureShows) {
         for (const ShadingRate rate : {ShadingRate::k1x1, ShadingRate::k2x2}) {
           Settings s = test_settings(100, 65);
           s.shading = shading, s.samples = samples, s.visibility = visibility, s.shading_rate = rate;
-          const Framebuffer f = render(scene, kCrowdView, s);
           int seen = 0;
-          for (int y = 3; y < s.height; y += 7)
-            for (int x = 1; x < s.width; x += 5) {
-              const size_t i = static_cast<size_t>(y * s.width + x);
-              const Result<PixelTrace> trace = trace_pixel(scene, kCrowdView, s, x, y);
-              ASSERT_TRUE(trace);
-              ASSERT_EQ(trace.value().primitive, f.primitive[i]) << x << "," << y;
-              ASSERT_EQ(0, std::memcmp(trace.value().radiance, &f.radiance[3 * i], 12)) << x << "," << y;
-              seen += f.primitive[i] != kNoPrimitive && scene.data().is_sphere(f.primitive[i]);
-            }
+          expect_why_agrees(scene, kCrowdView, s, [&](uint32_t primitive) { return scene.data().is_sphere(primitive); }, seen);
           EXPECT_GT(seen, 20);
         }
 }
@@ -37,21 +28,10 @@ TEST(RenderSpheres, WhySaysWhatThePictureShows) {
 TEST(RenderSpheres, QuestionsAgreeWithFrames) {
   const Scene scene = crowd();
   Settings s = test_settings(200, 130);
-  s.visibility = Visibility::kRay, s.transparency = Transparency::kNone;
-  const Framebuffer f = render(scene, kCrowdView, s);
-  const SceneQuery query(scene);
+  s.transparency = Transparency::kNone;
   int seen = 0;
-  for (int y = 0; y < s.height; y += 3)
-    for (int x = 0; x < s.width; x += 3) {
-      const size_t i = static_cast<size_t>(y * s.width + x);
-      const auto hit = query.pixel(kCrowdView, s, x, y);
-      ASSERT_TRUE(hit);
-      ASSERT_EQ(hit.value().has_value(), f.primitive[i] != kNoPrimitive);
-      if (!hit.value()) continue;
-      ASSERT_EQ(hit.value()->name.triangle, f.primitive[i]) << x << "," << y;
-      ASSERT_NEAR(hit.value()->t + kCrowdView.near_plane, kCrowdView.near_plane / double{f.depth[i]}, 1e-5);
-      seen += scene.data().is_sphere(f.primitive[i]);
-    }
+  expect_questions_agree(scene, kCrowdView, s, [](double) { return 1e-5; },
+                         [&](uint32_t primitive) { return scene.data().is_sphere(primitive); }, seen);
   EXPECT_GT(seen, 200);
 }
 

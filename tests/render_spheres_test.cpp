@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "frame/primary_rays.h"
 #include "frame/exact_hit.h"
+#include "frame/primary_rays.h"
 #include "math/elementary.h"
 #include "reference/reference.h"
 #include "support/frame_count.h"

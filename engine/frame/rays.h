@@ -1,10 +1,12 @@
 // Rays and hits: what the two visibility engines give to shading. A hit is {ray, primitive, instance} and nothing more;
 // shade/ recomputes everything else from the ray and the original triangle (DESIGN 1).
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "core/aligned.h"
 #include "math/vec.h"
+#include "scene/scene_data.h"
 
 namespace spanray {
 
@@ -71,6 +73,15 @@ struct HitBatch {
     count = n;
     pixel.resize(n), primitive.resize(n);
     if (with_ray) ray.resize(n);
+  }
+  // Makes misses of the entries behind the last, as far as a vector that begins before it reads. No byte of a picture depends on them.
+  void pad() {
+    constexpr size_t kMost = AlignedBuffer<uint32_t>::kPadding / sizeof(uint32_t);
+    if (count == 0) return;
+    std::fill_n(pixel.data() + count, kMost, pixel[static_cast<size_t>(count) - 1]);
+    std::fill_n(primitive.data() + count, kMost, kNoPrimitive);
+    if (!ray.empty()) std::fill_n(ray.data() + count, kMost, 0u);
+    if (!place.empty()) std::fill_n(place.data() + count, kMost, 0u);
   }
   size_t memory_bytes() const { return pixel.bytes() + ray.bytes() + primitive.bytes() + instance.bytes() + place.bytes(); }
 };

@@ -116,42 +116,44 @@ uint64_t show(const Frame& frame, uint32_t primitive, float depth, double x, dou
   return 1;
 }
 
-uint64_t draw_sphere(const Frame& frame, const ExactBins& bins, uint32_t index, int place, const ExactTarget& target) {
-  const SceneData& scene = *frame.scene;
-  const uint32_t primitive = static_cast<uint32_t>(scene.triangles.size()) + index;
-  const PixelBox &pixels = target.pixels, &box = bins.box[index];
+// Draws a primitive within a box. limit(x, y): no depth of it there is greater; not above 0: it is not seen there. hit(ray): its
+// first.
+template <class Limit, class Hit>
+uint64_t draw_within(const Frame& frame, uint32_t primitive, const PixelBox& box, int place, const ExactTarget& target,
+                     const Limit& limit, const Hit& hit) {
+  const PixelBox& pixels = target.pixels;
   uint64_t passed = 0;
   for (int y = std::max(box.y0, pixels.y0); y < std::min(box.y1, pixels.y1); ++y)
     for (int x = std::max(box.x0, pixels.x0); x < std::min(box.x1, pixels.x1); ++x) {
       const int i = (y - pixels.y0) * target.stride + x - pixels.x0;
-      if (target.depth[i] > bins.depth[index]) continue;  // hidden; unknown depths are not greater than any
-      const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place];
-      const double t = first_hit(primary_exact_ray(frame, at_x, at_y), scene.spheres[index], primitive).t;
+      const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place], most = limit(at_x, at_y);
+      // Unknown depths are not greater than any.
+      if (!(most > 0) || static_cast<double>(target.depth[i]) > most) continue;
+      const double t = hit(primary_exact_ray(frame, at_x, at_y)).t;
       if (t != std::numeric_limits<double>::infinity())
         passed += show(frame, primitive, depth_of(frame, t), at_x, at_y, target.primitive[i], target.depth[i]);
     }
   return passed;
 }
 
+uint64_t draw_sphere(const Frame& frame, const ExactBins& bins, uint32_t index, int place, const ExactTarget& target) {
+  const SceneData& scene = *frame.scene;
+  const uint32_t primitive = static_cast<uint32_t>(scene.triangles.size()) + index;
+  const auto most_depth = [&](double, double) { return static_cast<double>(bins.depth[index]); };
+  return draw_within(frame, primitive, bins.box[index], place, target, most_depth,
+                     [&](const ExactRay& ray) { return first_hit(ray, scene.spheres[index], primitive); });
+}
+
 uint64_t draw_plane(const Frame& frame, const PlaneOnScreen& seen, uint32_t index, int place, const ExactTarget& target) {
   const SceneData& scene = *frame.scene;
   const uint32_t primitive = static_cast<uint32_t>(scene.triangles.size() + scene.spheres.size()) + index;
   const PixelBox& pixels = target.pixels;
-  const auto most_depth = [&](double x, double y) { return seen.depth(x, y) + seen.margin; };
+  const auto most_depth = [&](double x, double y) { return (seen.depth(x, y) + seen.margin) * (1 + 0x1p-23); };
   const double most_on_left = std::max(most_depth(pixels.x0, pixels.y0), most_depth(pixels.x0, pixels.y1)),
                most_on_right = std::max(most_depth(pixels.x1, pixels.y0), most_depth(pixels.x1, pixels.y1));
   if (seen.height == 0 || !(std::max(most_on_left, most_on_right) > 0)) return 0;  // all beyond the horizon
-  uint64_t passed = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
-      const int i = (y - pixels.y0) * target.stride + x - pixels.x0;
-      const double at_x = x + frame.places.x[place], at_y = y + frame.places.y[place], most = most_depth(at_x, at_y);
-      if (!(most > 0) || static_cast<double>(target.depth[i]) > most * (1 + 0x1p-23)) continue;
-      const double t = first_hit(primary_exact_ray(frame, at_x, at_y), scene.planes[index], seen.height).t;
-      if (t != std::numeric_limits<double>::infinity())
-        passed += show(frame, primitive, depth_of(frame, t), at_x, at_y, target.primitive[i], target.depth[i]);
-    }
-  return passed;
+  return draw_within(frame, primitive, pixels, place, target, most_depth,
+                     [&](const ExactRay& ray) { return first_hit(ray, scene.planes[index], seen.height); });
 }
 
 }  // namespace

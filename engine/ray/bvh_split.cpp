@@ -83,7 +83,7 @@ F4 block_costs(const Box (&box)[3], I4 count) {
 }
 
 // The references in bins up to `bin` of an axis go left. Axis -1: no plane separates the centroids.
-struct Plane {
+struct Cut {
   int axis = -1, bin = 0;
   float cost = std::numeric_limits<float>::infinity();
 };
@@ -91,7 +91,7 @@ struct Plane {
 I4 load(const int32_t (&four)[4]) { return I4{four[0], four[1], four[2], four[3]}; }
 
 // The cheapest plane over all axes; ties to the first. Lanes are axes.
-Plane choose_plane(const Bins& bins, const BinGrid& grid) {
+Cut choose_cut(const Bins& bins, const BinGrid& grid) {
   F4 right_cost[kMostBins];
   I4 right_count[kMostBins];
   Box box[3] = {Box::empty(), Box::empty(), Box::empty()};
@@ -113,10 +113,10 @@ Plane choose_plane(const Bins& bins, const BinGrid& grid) {
     best = better ? cost : best;
     best_bin = better ? I4{b, b, b, b} : best_bin;
   }
-  Plane plane;
+  Cut cut;
   for (int k = 0; k < 3; ++k)
-    if (grid.scale[k] != 0.0f && best[k] < plane.cost) plane = {k, best_bin[k], best[k]};
-  return plane;
+    if (grid.scale[k] != 0.0f && best[k] < cut.cost) cut = {k, best_bin[k], best[k]};
+  return cut;
 }
 
 // Where a part of a split is being written.
@@ -147,18 +147,18 @@ template <int kAxis> void distribute(const Ref* begin, const Ref* end, const Bin
   parts = {left, right, step, in_left, in_right};
 }
 
-void distribute(const Ref* begin, const Ref* end, const BinGrid& grid, const Plane& plane, Parts& parts) {
-  if (plane.axis == 0) distribute<0>(begin, end, grid, plane.bin, parts);
-  else if (plane.axis == 1) distribute<1>(begin, end, grid, plane.bin, parts);
-  else distribute<2>(begin, end, grid, plane.bin, parts);
+void distribute(const Ref* begin, const Ref* end, const BinGrid& grid, const Cut& cut, Parts& parts) {
+  if (cut.axis == 0) distribute<0>(begin, end, grid, cut.bin, parts);
+  else if (cut.axis == 1) distribute<1>(begin, end, grid, cut.bin, parts);
+  else distribute<2>(begin, end, grid, cut.bin, parts);
 }
 
 // The boxes of the two parts, and where the second begins.
-void take_boxes(const Bins& bins, const BinGrid& grid, const Plane& plane, Range& left, Range& right) {
+void take_boxes(const Bins& bins, const BinGrid& grid, const Cut& cut, Range& left, Range& right) {
   uint32_t count = 0;
   for (int b = 0; b < grid.bins; ++b) {
-    (b <= plane.bin ? left : right).bounds.box.add(bins.box[b][plane.axis]);
-    if (b <= plane.bin) count += static_cast<uint32_t>(bins.count[b][plane.axis]);
+    (b <= cut.bin ? left : right).bounds.box.add(bins.box[b][cut.axis]);
+    if (b <= cut.bin) count += static_cast<uint32_t>(bins.count[b][cut.axis]);
   }
   left.end = right.begin = left.begin + count;
 }
@@ -177,18 +177,18 @@ void for_chunks(const Range& range, Parallel* parallel,
 
 // A stable partition has one result, whoever computes it: each chunk knows from its bins how many it has for the left.
 void distribute_chunks(const Range& range, Parallel* parallel, const Ref* from, Ref* to, const std::vector<Bins>& bins,
-                       const BinGrid& grid, const Plane& plane, Range& left, Range& right) {
+                       const BinGrid& grid, const Cut& cut, Range& left, Range& right) {
   std::vector<Parts> parts(bins.size());
   Ref *to_left = to, *to_right = to + left.count();
   for (size_t c = 0; c < bins.size(); ++c) {
     parts[c] = {to_left, to_right, 1};
     uint32_t goes_left = 0;
-    for (int b = 0; b <= plane.bin; ++b) goes_left += static_cast<uint32_t>(bins[c].count[b][plane.axis]);
+    for (int b = 0; b <= cut.bin; ++b) goes_left += static_cast<uint32_t>(bins[c].count[b][cut.axis]);
     to_left += goes_left;
     to_right += std::min(kChunk, range.count() - static_cast<uint32_t>(c) * kChunk) - goes_left;
   }
   for_chunks(range, parallel, [&](uint32_t c, uint32_t first, uint32_t last) {
-    distribute(from + first, from + last, grid, plane, parts[c]);
+    distribute(from + first, from + last, grid, cut, parts[c]);
   });
   for (const Parts& p : parts) left.bounds.centroids.add(p.left_centroids), right.bounds.centroids.add(p.right_centroids);
 }
@@ -223,21 +223,21 @@ bool Splitter::split(const Range& range, bool by_median, Range& left, Range& rig
     });
     for (const Bins& b : chunk_bins) bins.add(b);
   }
-  const Plane plane = choose_plane(bins, grid);
+  const Cut cut = choose_cut(bins, grid);
   const float area = range.bounds.box.half_area();
-  if (n <= kBvhWidth && !(kTraversalCost * area + plane.cost < area)) return false;
-  if (plane.axis < 0) {
+  if (n <= kBvhWidth && !(kTraversalCost * area + cut.cost < area)) return false;
+  if (cut.axis < 0) {
     halve(range, left, right);
     return true;
   }
-  take_boxes(bins, grid, plane, left, right);
+  take_boxes(bins, grid, cut, left, right);
   Ref* const to = array_[left.second] + range.begin;
   if (!whole) {
-    distribute_chunks(range, parallel_, from, to, chunk_bins, grid, plane, left, right);
+    distribute_chunks(range, parallel_, from, to, chunk_bins, grid, cut, left, right);
     return true;
   }
   Parts parts{to, to + n - 1, -1};
-  distribute(from, from + n, grid, plane, parts);
+  distribute(from, from + n, grid, cut, parts);
   left.bounds.centroids = parts.left_centroids, right.bounds.centroids = parts.right_centroids;
   return true;
 }

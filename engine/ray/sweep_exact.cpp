@@ -52,8 +52,7 @@ PlaneFrom plane_from(const Plane& plane, const glm::dvec3& place) {
 }
 
 // When a sphere of radius r, moved along `motion`, first touches a plane that is at first this far away; infinity if never.
-// Contract: as first_touch(). At the start a plane that it touches stops it only if it moves towards it; on the plane nothing
-// is
+// Contract: as first_touch(). At the start a plane that it touches stops it only if it moves towards it; on the plane nothing is
 //           towards it.
 double first_touch(const PlaneFrom& plane, const glm::dvec3& motion, double r) {
   constexpr double kNever = std::numeric_limits<double>::infinity();

@@ -7,8 +7,8 @@
 #include <new>
 
 #include "core/fp_env.h"
-#include "frame/primary_rays.h"
 #include "frame/exact_hit.h"
+#include "frame/primary_rays.h"
 #include "frame/transparency.h"
 #include "raster/exact.h"
 #include "ray/bvh_data.h"

@@ -12,7 +12,6 @@
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
-#include "shade/direct.h"
 
 namespace spanray {
 namespace {
@@ -68,6 +67,7 @@ void compact_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary
   level.hits.place.resize(place.empty() ? 0 : level.slot_of_hit.size());
   for (size_t i = 0; i < level.hits.place.size(); ++i) level.hits.place[i] = place[level.slot_of_hit[i]];
   level.hits.rays = primary ? nullptr : &level.rays;
+  level.hits.pad();
 }
 
 // What a batch of hits says, to their slots; what misses say, to all others.
@@ -91,9 +91,10 @@ void scatter_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary
     for (int k = 0; k < fields; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
 }
 
-void count_lanes(const Frame& frame, const SurfaceBatch& surfaces, FrameCounts& counts) {
-  if (frame.plan.lit_vertices) counts.vertices_lit += 3 * surfaces.plane_lanes.used;
-  counts.plane_lanes.add(surfaces.plane_lanes), counts.surface_lanes.add(surfaces.surface_lanes);
+// shaded: SurfaceBatch or DirectCounts.
+template <class Shaded> void count_lanes(const Frame& frame, const Shaded& shaded, FrameCounts& counts) {
+  if (frame.plan.lit_vertices) counts.vertices_lit += 3 * shaded.plane_lanes.used;
+  counts.plane_lanes.add(shaded.plane_lanes), counts.surface_lanes.add(shaded.surface_lanes);
 }
 
 // Level 0 where no surface need be stored: its slots are the hits, among them those that are none.
@@ -105,25 +106,23 @@ void shade_slots(const FrameJob& job, TileWorker& w, Level& level) {
   for (auto& channel : w.radiance) channel.resize(static_cast<size_t>(level.slots) + 64);  // whole vectors are written
   float* const radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
   lend();
+  hits.pad();
   const DirectCounts counts = shade_direct(job.frame, hits, level.surfaces.planes, radiance);
   lend();
   for (int c = 0; c < 3; ++c) std::swap(level.radiance[c], w.radiance[c]);
-  hits.count = counts.hits;
-  w.counts.plane_lanes.add(counts.plane_lanes), w.counts.surface_lanes.add(counts.surface_lanes);
-  if (job.frame.plan.lit_vertices) w.counts.vertices_lit += 3 * counts.plane_lanes.used;
+  hits.count = static_cast<int>(counts.surface_lanes.used);
+  count_lanes(job.frame, counts, w.counts);
 }
 
 // Opaque surfaces of a level, lit; their radiance goes to the slots, the background to all others, unless only bytes will.
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
   w.clock.enter(TileStage::kShade);
-  level.radiance_of_hits = false;
   if (can_shade_direct(job.frame)) return shade_slots(job, w, level);
   compact_hits(job, w, level, primary);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   count_lanes(job.frame, level.surfaces, w.counts);
   light_surfaces(job, w, level.surfaces, level.hits);
-  level.radiance_of_hits = primary && job.only_bytes();
-  if (!level.radiance_of_hits) scatter_hits(job, w, level, primary);
+  if (!job.keeps_radiance_of_hits()) scatter_hits(job, w, level, primary);
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
@@ -187,6 +186,7 @@ void composite_translucents(const FrameJob& job, TileWorker& w, Level& level, bo
   hits.place.resize(level.place.empty() ? 0 : static_cast<size_t>(n));
   for (size_t i = 0; i < hits.place.size(); ++i) hits.place[i] = level.place[static_cast<size_t>(w.fragment_slot[i])];
   hits.rays = primary ? nullptr : &level.rays;
+  hits.pad();
   resolve_surfaces(job.frame, hits, w.fragment_surfaces);
   count_lanes(job.frame, w.fragment_surfaces, w.counts);
   light_surfaces(job, w, w.fragment_surfaces, hits);

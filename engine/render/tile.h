@@ -11,6 +11,7 @@
 #include "render/pixel_order.h"
 #include "render/stage_clock.h"
 #include "render/tile_samples.h"
+#include "shade/direct.h"
 #include "shade/light.h"
 #include "shade/surface.h"
 #include "spanray/render.h"
@@ -47,7 +48,6 @@ struct Level {
   AlignedBuffer<uint32_t> shading_place;  // by slot: where in its pixel it is shaded
   AlignedBuffer<uint32_t> whole_slot;     // by pixel of the chunk
   int slots = 0;
-  bool radiance_of_hits = false;  // radiance was not brought to the slots: it stands in TileWorker::radiance, by hit
 
   void resize(int n, bool translucents);
   size_t memory_bytes() const;
@@ -88,10 +88,12 @@ struct FrameJob {
   bool asks_for_more() const {
     return request.radiance || request.depth || request.primitive || request.normal || request.uv || request.ladder != nullptr;
   }
-  // Whether the radiance of level 0 only becomes bytes: then it stays with the hits, and their bytes are brought to the slots.
-  bool only_bytes() const {
+  // Whether the radiance of level 0 stays with the hits (TileWorker::radiance), since it only becomes bytes: these are brought to
+  // the slots.
+  bool keeps_radiance_of_hits() const {
     const PlanFlags& plan = frame.plan;
-    return !asks_for_more() && frame.places.count == 1 && !plan.translucents && !plan.bounces && !plan.coarse_quads;
+    return !asks_for_more() && frame.places.count == 1 && !plan.translucents && !plan.bounces && !plan.coarse_quads &&
+           !can_shade_direct(frame);
   }
 };
 

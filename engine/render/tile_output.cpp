@@ -69,7 +69,7 @@ void encode(const FrameJob& job, const AlignedBuffer<float> (&radiance)[3], int 
 
 // By slot of level 0, one sample a pixel.
 const uint32_t* encode_slots(const FrameJob& job, TileWorker& w, const Level& level) {
-  if (!level.radiance_of_hits) {
+  if (!job.keeps_radiance_of_hits()) {
     encode(job, level.radiance, level.slots, w.encoded);
     return w.encoded.data();
   }

@@ -9,8 +9,7 @@ namespace spanray {
 bool can_shade_direct(const Frame& frame);
 
 struct DirectCounts {
-  int hits = 0;  // of triangles
-  LaneCounts plane_lanes, surface_lanes;
+  LaneCounts plane_lanes, surface_lanes;  // used: planes; hits of triangles
 };
 
 // radiance[c][i] of each entry of hits (primary rays), the background's where it hit nothing; the same bits as the way through surfaces.

@@ -149,7 +149,7 @@ class DirectShader {
     vectors_ = 0;
     for (int i = from; i < end; i += kLanes) {
       Shaded& s = shaded_[vectors_];
-      s.valid = hits_triangle(*frame_.scene, I32::load(hits_.primitive.data() + i)) & first_lanes(hits_.count - i);
+      s.valid = triangles_at(*frame_.scene, hits_, i);
       const int found = count(s.valid);
       if (found == 0) {
         store(i, s.valid, {F32::zero(), F32::zero(), F32::zero()});
@@ -163,7 +163,6 @@ class DirectShader {
         s.take(frame_, point);
       });
       at_[vectors_++] = i;
-      counts_.hits += found;
       counts_.surface_lanes.add({static_cast<uint64_t>(kLanes), static_cast<uint64_t>(found)});
     }
   }

@@ -6,6 +6,7 @@
 #define SPANRAY_HIT_POINT_INL_H_
 #endif
 
+#include "shade/plane_finder-inl.h"
 #include "shade/primary-inl.h"
 #include "shade/texture_use-inl.h"
 
@@ -19,8 +20,7 @@ HWY_INLINE HitLanes load_hits(const SceneData& scene, const HitBatch& hits, int 
   HitLanes h;
   h.rays = hits.rays;
   h.primitive = I32::load(hits.primitive.data() + at);
-  const int left = hits.count - at;
-  h.valid = first_lanes(left < kLanes ? left : kLanes) & hits_triangle(scene, h.primitive);
+  h.valid = triangles_at(scene, hits, at);
   h.pixel = I32::load(hits.pixel.data() + at);
   h.ray = secondary(hits.rays) != nullptr ? select(h.valid, I32::load(hits.ray.data() + at), i32(0)) : i32(0);
   const uint32_t lanes = to_bits(h.valid);

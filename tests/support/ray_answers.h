@@ -22,6 +22,20 @@ inline int add_ray(RayBatch& rays, const glm::dvec3& o, const glm::dvec3& d, flo
   return i;
 }
 
+// Rays through a cloud of that scale: some along an axis or in a plane of two, some with an end, some that leave one of its primitives.
+inline RayBatch crossing_rays(TestRandom& random, int count, double scale, const glm::dvec3& offset, uint32_t primitives) {
+  RayBatch rays;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 o = offset + random_point(random, 2 * scale);
+    glm::dvec3 d = offset + random_point(random, scale) - o;
+    if (i % 5 == 0) d[i % 3] = 0;
+    if (i % 7 == 0) d[(i + 1) % 3] = -0.0;
+    const float end = i % 3 == 0 ? static_cast<float>(random.uniform(0, 1)) : std::numeric_limits<float>::infinity();
+    add_ray(rays, o, d, end, i % 4 == 0 ? static_cast<uint32_t>(random.below(static_cast<int>(primitives))) : kNoPrimitive);
+  }
+  return rays;
+}
+
 struct Answers {
   std::vector<uint32_t> closest;
   std::vector<bool> any;
