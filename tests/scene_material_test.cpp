@@ -266,6 +266,9 @@ TEST_F(MaterialTest, I8_TexelsOfColorsEncodeToTheirBytesAgain) {
   const Texture &color = s.textures.at(0), &data = s.textures.at(1);
   EXPECT_EQ(s.texture_uses.at(1).channel, 1) << "gray: one channel of a height map is enough";
   EXPECT_EQ(color.levels, 9);
+  const int32_t rows = s.height_rows.at(1).offset[0];
+  EXPECT_EQ(s.height_rows.at(0).offset[0], -1);
+  for (int i = 0; i < 258; ++i) EXPECT_EQ(s.heights[static_cast<size_t>(rows + i)], i % 256 * 257) << i;
   for (int i = 0; i < 256; ++i) {
     const Texel c = s.texels[static_cast<size_t>(color.offset[0] + i)], d = s.texels[static_cast<size_t>(data.offset[0] + i)];
     EXPECT_EQ(srgb8_from_linear(static_cast<float>(c.g) / 65535.0f), i);

@@ -1,6 +1,7 @@
 // Perturbed normals: height maps, normal maps, and where they must change nothing.
 #include <gtest/gtest.h>
 
+#include "scene/height_rows.h"
 #include "support/surface_scenes.h"
 #include "support/texture_probe.h"
 
@@ -128,6 +129,42 @@ TEST(ShadeBump, OneChannelOfGrayIsItsLuminance) {
       EXPECT_GT(bent, 1000);
     }
     t->scene.texture_uses[static_cast<size_t>(gray)].channel = -1;
+  }
+}
+
+// Rows of heights are a faster way to the same texels, around the ends of rows and on levels of one texel, too; also where lanes of
+// one vector have different maps, or one that has no rows (clamped, or by its luminance).
+TEST(ShadeBump, RowsOfHeightsChangeNoBit) {
+  TestRandom random(79);
+  auto t = full_frame(random_surface_scene(80, 60), random_camera(random, 3), 512, 512);
+  SceneData& scene = t->scene;
+  const auto noise = [&](int, int) { return noise_texel(random); };
+  const int32_t use[] = {add_texture(scene, 32, 8, noise), add_texture(scene, 2, 64, noise), add_texture(scene, 1, 1, noise), add_texture(scene, 16, 16, noise),
+                         add_texture(scene, 16, 16, noise)};
+  const auto of = [&](int k) -> TextureUse& { return scene.texture_uses[static_cast<size_t>(use[k])]; };
+  of(0).channel = 0, of(1).channel = 3, of(2).channel = 1, of(3).channel = 2, of(3).clamp = 1;
+  for (int maps = 3; maps <= 5; ++maps) {  // all in rows; some clamped; some by luminance
+    for (size_t m = 0; m < scene.materials.size(); ++m)
+      scene.materials[m].map_bump = use[m % static_cast<size_t>(maps)], scene.materials[m].map_normal = -1;
+    HitBatch hits;
+    random_primary_hits(t->frame, random, 1000, hits);
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      SurfaceBatch flat, texels, rows;
+      scene.height_rows.clear();
+      resolve_unbumped(t->frame, hits, flat);
+      resolve_surfaces(t->frame, hits, texels);
+      make_height_rows(scene);
+      ASSERT_EQ(scene.height_rows.size(), scene.texture_uses.size());
+      for (int k = 0; k < 5; ++k) ASSERT_EQ(scene.height_rows[static_cast<size_t>(use[k])].offset[0] >= 0, k < 3);
+      resolve_surfaces(t->frame, hits, rows);
+      int bent = 0;
+      for (int i = 0; i < hits.count; ++i) {
+        ASSERT_EQ(surface_difference(texels, i, rows, i), "") << isa_name(isa) << " " << maps << " " << i;
+        bent += bits_of(rows.normal[0][i]) != bits_of(flat.normal[0][i]);
+      }
+      EXPECT_GT(bent, 400);
+    }
   }
 }
 

@@ -61,7 +61,7 @@ Scene opaque_scene(const Scene& scene, double time) {
   static_cast<SceneTables&>(data) = from;
   data.vertices = AlignedBuffer<Vertex>::borrow(from.vertices);
   data.triangles = AlignedBuffer<Triangle>::borrow(from.triangles);
-  data.texels = AlignedBuffer<Texel>::borrow(from.texels);
+  data.borrow_texels(from);
   for (Material& m : data.materials) m.map_opacity = -1, m.opacity = 1, m.transparency = static_cast<int32_t>(MaterialTransparency::kOpaque);
   return Scene(std::shared_ptr<const SceneData>(kept, &data));
 }

@@ -5,6 +5,7 @@
 
 #include "core/counted.h"
 #include "math/elementary.h"
+#include "scene/height_rows.h"
 #include "scene/moving_parts.h"
 #include "scene/mtl_library.h"
 #include "scene/obj_mesh.h"
@@ -205,6 +206,7 @@ Result<void> load_obj(const std::string& path, const LoadOptions& options, const
   for (size_t i = 0; i < mesh.used_materials.size(); ++i)
     if (has_faces[i]) material_of_used[i] = materials.find(mesh.used_materials[i]);
   if (scene.materials.empty()) materials.find({"", 0});
+  make_height_rows(scene);
 
   if (!progress("smoothing normals", 0)) return stopped;
   double sine = 0, cosine = 0;

@@ -29,7 +29,7 @@ PosedScene::PosedScene(const SceneData& rest) : rest_(rest), poses_(rest.motions
   data_.motions.clear(), data_.moving_vertices.clear(), data_.moving_triangles.clear();
   data_.vertices = AlignedBuffer<Vertex>::copy(rest.vertices);
   data_.triangles = AlignedBuffer<Triangle>::copy(rest.triangles);
-  data_.texels = AlignedBuffer<Texel>::borrow(rest.texels);
+  data_.borrow_texels(rest);
   run_bounds_.assign(rest.moving_vertices.size(), no_bounds<Bounds>());
   size_t next = 0;
   const auto add_still = [&](size_t end) {

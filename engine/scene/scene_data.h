@@ -95,6 +95,13 @@ struct Texture {
 };
 inline constexpr int kTextureStride = sizeof(Texture) / 4;
 
+// The height map of a texture use by its one channel, each row followed by its first two heights: three neighbours, around the end, too, are
+// one load. A copy, made by make_height_rows() (scene/height_rows.h): no bit of a pixel depends on whether it is there.
+struct HeightRows {
+  int32_t offset[kMaxMipLevels + 1];  // first height of each level in SceneData::heights; -1: there are none
+};
+inline constexpr int kHeightRowsStride = sizeof(HeightRows) / 4;
+
 // 16 bits a channel, linear light (sRGB decoded at load for color slots; height, normal, mask and shininess maps as they are).
 // An sRGB byte decoded to this and encoded again is the same byte.
 struct Texel { uint16_t r, g, b, a; };
@@ -130,6 +137,7 @@ struct SceneTables {
   std::vector<ScenePart> parts;         // ascending; those without a triangle are left out
   std::vector<std::string> part_names;  // [0] is "": faces before any `o` or `g`
   std::vector<TextureUse> texture_uses;
+  std::vector<HeightRows> height_rows;  // of each texture use, or empty
   std::vector<Texture> textures;
   std::vector<std::string> texture_names;
   std::vector<Light> lights;        // at most kMaxLights
@@ -160,6 +168,12 @@ struct SceneData : SceneTables {
   AlignedBuffer<Vertex> vertices;
   AlignedBuffer<Triangle> triangles;
   AlignedBuffer<Texel> texels;
+  AlignedBuffer<uint16_t> heights;
+
+  // What the tables of textures point into is that of `from`, which must outlive this.
+  void borrow_texels(const SceneData& from) {
+    texels = AlignedBuffer<Texel>::borrow(from.texels), heights = AlignedBuffer<uint16_t>::borrow(from.heights);
+  }
 
   // Of primitives that are there: kNoPrimitive is none of these.
   bool is_triangle(uint32_t primitive) const { return primitive < triangles.size(); }

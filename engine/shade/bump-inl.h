@@ -39,29 +39,52 @@ HWY_INLINE TangentLanes make_tangents(const SceneData& scene, const UseLanes& us
 
 struct SlopeLanes { F32 s, t; };
 
-// Raw height of a texel. one_channel: all lanes name a single one.
-HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 index, I32 channel, bool one_channel) {
-  const uint32_t* words = reinterpret_cast<const uint32_t*>(scene.texels.data());
-  if (one_channel) {
-    const I32 word = gather(words, shift_left<1>(index) + shift_right<1>(channel));
-    return to_f32(shift_right_by(word, shift_left<4>(channel & i32(1))) & i32(0xffff));
+// The raw heights of 3 x 3 texels around a point.
+struct HeightLanes { F32 h[3][3]; };
+
+// Whether all active lanes find theirs in SceneData::heights.
+HWY_INLINE bool has_height_rows(const SceneData& scene, const UseLanes& use) {
+  if (scene.height_rows.empty() || use.any_clamp) return false;
+  const I32 first = use.rows.word(reinterpret_cast<const uint32_t*>(scene.height_rows.data()), 0);
+  return all((first > i32(-1)) | !use.active);
+}
+
+HWY_INLINE HeightLanes read_rows(const SceneData& scene, const UseLanes& use, I32 level, I32 stride, I32 column, const Neighbours<3>& row) {
+  const uint32_t* const offsets = reinterpret_cast<const uint32_t*>(scene.height_rows.data());
+  I32 base;
+  if (kLanes == kHeightRowsStride && use.rows.uniform) base = lookup(offsets + use.rows.first, level);
+  else base = gather(offsets, use.rows.offset + level);
+  HeightLanes r;
+  for (int j = 0; j < 3; ++j) {
+    const I32 index = base + row.texel[j] * stride + column;
+    const WordPair heights = gather_pair<sizeof(uint16_t)>(scene.heights.data(), select(use.active, index, I32::zero()));
+    r.h[j][0] = to_f32(heights.low & i32(0xffff)), r.h[j][1] = to_f32(shift_right_logical<16>(heights.low));
+    r.h[j][2] = to_f32(heights.high & i32(0xffff));
   }
-  RawSample raw;
-  read_texel<4>(words, index, raw.c);
-  return choose_channel(scene, use, raw);
+  return r;
+}
+
+HWY_INLINE HeightLanes read_texels(const SceneData& scene, const UseLanes& use, const LevelPlace& p, const Neighbours<3>& column,
+                                   const Neighbours<3>& row) {
+  HeightLanes r;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) {
+      RawSample raw;
+      read_texel<4>(reinterpret_cast<const uint32_t*>(scene.texels.data()), p.base + row.texel[j] * p.width + column.texel[i], raw.c);
+      r.h[j][i] = choose_channel(scene, use, raw);
+    }
+  return r;
 }
 
 // Raw height difference over one texel of `level`, per texel of level 0: of bilinear samples half a texel to either side. All four
 // lie among the 3 x 3 texels around the point; the two samples of a direction share their weights.
-[[maybe_unused]] static HWY_NOINLINE SlopeLanes level_slope(const SceneData& scene, const UseLanes& use, I32 level) {
+[[maybe_unused]] static HWY_NOINLINE SlopeLanes level_slope(const SceneData& scene, const UseLanes& use, I32 level, bool in_rows) {
   const LevelPlace p = place_on_level(scene, use, level);
-  const I32 channel = use.word(scene, kUseChannel), byte = i32(255), half = i32(128);
-  const bool one_channel = all((channel > i32(-1)) & (channel < i32(4)));
+  const I32 byte = i32(255), half = i32(128);
   const I32 x = p.x - i32(256), y = p.y - i32(256), fx = x & byte, fy = y & byte;  // half a texel for the center, half to the first sample
   const Neighbours<3> column = neighbours<3>(shift_right<8>(x), p.width, use), row = neighbours<3>(shift_right<8>(y), p.height, use);
-  F32 h[3][3];
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) h[j][i] = read_height(scene, use, p.base + row.texel[j] * p.width + column.texel[i], channel, one_channel);
+  const HeightLanes read = in_rows ? read_rows(scene, use, level, p.width + i32(2), column.texel[0], row) : read_texels(scene, use, p, column, row);
+  const auto& h = read.h;
   const F32 step = f32(0x1p-8f);
   const auto blend = [](F32 f, F32 a, F32 b) HWY_ATTR { return mul_add(f, b - a, a); };
   // Differences along a line of three, and which two of the lines lie around the point, how far from the first.
@@ -86,9 +109,10 @@ HWY_INLINE F32 read_height(const SceneData& scene, const UseLanes& use, I32 inde
 // Contract: exactly n where the slope or bm is 0, or where there is no tangent.
 HWY_INLINE V3f apply_height_map(const SceneData& scene, const UseLanes& use, Filter filter, const UvLanes& uv, const V3f& n) {
   const LevelLanes levels = choose_levels(scene, use, filter);
-  SlopeLanes slope = level_slope(scene, use, levels.level);
+  const bool in_rows = has_height_rows(scene, use);
+  SlopeLanes slope = level_slope(scene, use, levels.level, in_rows);
   if (levels.blend) {
-    const SlopeLanes far_slope = level_slope(scene, use, levels.next);
+    const SlopeLanes far_slope = level_slope(scene, use, levels.next, in_rows);
     slope.s = mul_add(levels.weight, far_slope.s - slope.s, slope.s);
     slope.t = mul_add(levels.weight, far_slope.t - slope.t, slope.t);
   }

@@ -32,7 +32,7 @@ template <int kCount> HWY_INLINE Neighbours<kCount> neighbours(I32 i, I32 size, 
 
 // The first kChannels channels of texel `index`.
 template <int kChannels> HWY_INLINE void read_texel(const uint32_t* words, I32 index, F32 out[4]) {
-  const WordPair texel = gather_pair(words, index);
+  const WordPair texel = gather_pair<8>(words, index);
   const I32 low16 = i32(0xffff);
   out[0] = to_f32(texel.low & low16), out[1] = to_f32(shift_right_logical<16>(texel.low)), out[2] = to_f32(texel.high & low16);
   if constexpr (kChannels > 3) out[3] = to_f32(shift_right_logical<16>(texel.high));

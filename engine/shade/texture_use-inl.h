@@ -34,6 +34,7 @@ struct MapLanes {
 
 struct UseLanes : MapLanes {
   RecordLanes texture;  // the Texture
+  RecordLanes rows;     // the HeightRows, if the scene has any
   I32 width, height;    // of level 0
   Mask clamp;
   bool any_clamp;
@@ -100,6 +101,7 @@ HWY_INLINE UseLanes open_use(const SceneData& scene, I32 index, bool uniform, Ma
   const I32 texture = use.word(scene, 0);
   use.active = lanes & (index > i32(-1)) & (texture > i32(-1));
   use.texture = record_lanes(max_(texture, i32(0)), kTextureStride, uniform);
+  use.rows = record_lanes(max_(index, i32(0)), kHeightRowsStride, uniform);
   use.width = use.texture_word(scene, 0);
   use.height = use.texture_word(scene, 1);
   use.clamp = use.word(scene, kUseClamp) != i32(0);

@@ -225,20 +225,24 @@ HWY_INLINE I32 expand_load(const uint32_t* p, Mask m) {
 #endif
 }
 
-// The two halves of 64-bit word `index` of base.
+// The two halves of 64-bit word `index` of base, which stand kBytes from one another.
 struct WordPair { I32 low, high; };
-HWY_INLINE WordPair gather_pair(const uint32_t* base, I32 index) {
+template <int kBytes> HWY_INLINE WordPair gather_pair(const void* base, I32 index) {
 #if HWY_TARGET == HWY_SCALAR
-  const uint32_t* p = base + 2 * static_cast<ptrdiff_t>(hn::GetLane(index.v));
-  return {{hn::Set(DI(), static_cast<int32_t>(p[0]))}, {hn::Set(DI(), static_cast<int32_t>(p[1]))}};
+  int32_t p[2];
+  std::memcpy(p, static_cast<const char*>(base) + kBytes * static_cast<ptrdiff_t>(hn::GetLane(index.v)), sizeof p);
+  return {{hn::Set(DI(), p[0])}, {hn::Set(DI(), p[1])}};
 #else
+  const int64_t* const words = static_cast<const int64_t*>(base);
   const auto half = [&](auto half_index) HWY_ATTR {
 #if HWY_TARGET == HWY_AVX3  // Highway gathers 64-bit words by 64-bit indices: widening them costs as much as a third of the gather
-    return hn::BitCast(DI(), hn::Vec<DDI>{_mm512_i32gather_epi64(half_index.raw, base, 8)});
+    return hn::BitCast(DI(), hn::Vec<DDI>{_mm512_i32gather_epi64(half_index.raw, words, kBytes)});
 #elif HWY_TARGET == HWY_AVX2
-    return hn::BitCast(DI(), hn::Vec<DDI>{_mm256_i32gather_epi64(reinterpret_cast<const long long*>(base), half_index.raw, 8)});
+    return hn::BitCast(DI(), hn::Vec<DDI>{_mm256_i32gather_epi64(reinterpret_cast<const long long*>(words), half_index.raw, kBytes)});
 #else
-    return hn::BitCast(DI(), hn::GatherIndex(DDI(), reinterpret_cast<const int64_t*>(base), hn::PromoteTo(DDI(), half_index)));
+    constexpr int kShift = kBytes == 8 ? 3 : 1;
+    static_assert(kBytes == 1 << kShift);
+    return hn::BitCast(DI(), hn::GatherOffset(DDI(), words, hn::ShiftLeft<kShift>(hn::PromoteTo(DDI(), half_index))));
 #endif
   };
   const auto a = half(hn::LowerHalf(DHI(), index.v)), b = half(hn::UpperHalf(DHI(), index.v));
