@@ -55,8 +55,8 @@ HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
           mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
 }
 
-HWY_INLINE void add_material(const Frame& frame, Shaded& s) {
-  const Materials g{frame, s.valid, record_lanes(s.material, kMaterialStride, all(s.material == i32(first_lane(s.material))))};
+HWY_INLINE void add_material(const Frame& frame, PlainTexture& plain, Shaded& s) {
+  const Materials g{frame, s.valid, record_lanes(s.material, kMaterialStride, all(s.material == i32(first_lane(s.material)))), &plain};
   if (frame.plan.bump) apply_bump(g, s);
   if (frame.plan.normals) s.normal = clamp_to_horizon(s.normal, s.geometric);
   s.m = constants_of(g);
@@ -129,7 +129,7 @@ class DirectShader {
     for (int from = 0; from < hits_.count; from += kTogether * kLanes) {
       if (from % kPlaneHits == 0) set_up(from);
       find_points(from);
-      for (int k = 0; k < vectors_; ++k) add_material(frame_, shaded_[k]);
+      for (int k = 0; k < vectors_; ++k) add_material(frame_, texture_, shaded_[k]);
       add_lights();
       for (int k = 0; k < vectors_; ++k) store(at_[k], shaded_[k].valid, shaded_[k].radiance);
     }
@@ -192,6 +192,7 @@ class DirectShader {
   const int stride_;          // this far from vector to vector
   PlaneBlock planes_;
   DirectCounts counts_;
+  PlainTexture texture_;
   Shaded shaded_[kTogether];
   int at_[kTogether], vectors_ = 0;
 };

@@ -30,6 +30,21 @@ template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials
   visit(use, sample<kChannels>(scene, use, g.frame.settings.filter));
 }
 
+// visit(lanes that have a map of this kind, its color) if there are any.
+template <class Visit> HWY_INLINE void sample_color(const Materials& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
+  const Frame& frame = g.frame;
+  if ((frame.plan.maps & slot.bit) == 0) return;
+  const SceneData& scene = *frame.scene;
+  if (g.plain != nullptr && g.material.uniform && frame.settings.filter != Filter::kNearest) {
+    const int32_t map = uniform_map(g, slot.word);
+    if (map < 0) return;
+    PlainTexture& texture = *g.plain;
+    texture.open(scene, map);
+    if (texture.plain) return visit(g.valid, sample_plain(scene, texture, plain_place(texture, uv), g.valid, frame.settings.filter));
+  }
+  sample_map<3>(g, uv, slot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR { visit(map.active, color_of(scene, map, raw)); });
+}
+
 // color times the map, in lanes that have it.
 HWY_INLINE void modulate(Mask active, V3f& color, const V3f& map) {
   color = select(active, V3f{color.x * map.x, color.y * map.y, color.z * map.z}, color);
@@ -42,27 +57,20 @@ HWY_INLINE void modulate(Mask active, F32& value, F32 map, float most) {
 
 // Diffuse and ambient share map_Kd unless there is a map_Ka. Specular and mirror share map_Ks: the mirror weight comes from Ks.
 HWY_INLINE void modulate_colors(const Materials& g, const UvLanes& uv, MaterialLanes& m) {
-  const SceneData& scene = *g.frame.scene;
   const PlanFlags& plan = g.frame.plan;
-  sample_map<3>(g, uv, kDiffuseSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
-    const V3f color = color_of(scene, map, raw);
-    modulate(map.active, m.diffuse, color);
-    if (plan.ambient) modulate(map.active & (material_map(g, kAmbientSlot.word) < i32(0)), m.ambient, color);
+  sample_color(g, uv, kDiffuseSlot, [&](Mask active, const V3f& color) HWY_ATTR {
+    modulate(active, m.diffuse, color);
+    if (plan.ambient) modulate(active & (material_map(g, kAmbientSlot.word) < i32(0)), m.ambient, color);
   });
   if (plan.ambient)
-    sample_map<3>(g, uv, kAmbientSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(map.active, m.ambient, color_of(scene, map, raw));
-    });
+    sample_color(g, uv, kAmbientSlot, [&](Mask active, const V3f& color) HWY_ATTR { modulate(active, m.ambient, color); });
   if (plan.specular || plan.bounces)
-    sample_map<3>(g, uv, kSpecularSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      const V3f color = color_of(scene, map, raw);
-      if (plan.specular) modulate(map.active, m.specular, color);
-      if (plan.bounces) modulate(map.active, m.mirror, color);
+    sample_color(g, uv, kSpecularSlot, [&](Mask active, const V3f& color) HWY_ATTR {
+      if (plan.specular) modulate(active, m.specular, color);
+      if (plan.bounces) modulate(active, m.mirror, color);
     });
   if (plan.emission)
-    sample_map<3>(g, uv, kEmissionSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
-      modulate(map.active, m.emission, color_of(scene, map, raw));
-    });
+    sample_color(g, uv, kEmissionSlot, [&](Mask active, const V3f& color) HWY_ATTR { modulate(active, m.emission, color); });
 }
 
 HWY_INLINE V3f bumped_normal(const Materials& g, const UvLanes& uv, V3f normal) {

@@ -6,7 +6,7 @@
 #define SPANRAY_SURFACE_GROUP_INL_H_
 #endif
 
-#include "shade/point-inl.h"
+#include "shade/plain_texture-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -18,6 +18,7 @@ struct Materials {
   const Frame& frame;
   Mask valid;
   RecordLanes material;
+  PlainTexture* plain = nullptr;  // the one read last, if the caller keeps it
 };
 
 // kLanes entries of a batch, from `at` on. All lanes are stored, valid or not: clear_misses (resolve_kernel.cpp) comes last.
@@ -43,6 +44,11 @@ HWY_INLINE V3f material_color(const Materials& g, int k) {
 }
 HWY_INLINE I32 material_map(const Materials& g, int k) {
   return g.material.word(reinterpret_cast<const uint32_t*>(g.frame.scene->materials.data()), k);
+}
+
+// The same where all lanes have one material.
+HWY_INLINE int32_t uniform_map(const Materials& g, int k) {
+  return static_cast<int32_t>(reinterpret_cast<const uint32_t*>(g.frame.scene->materials.data())[g.material.first + static_cast<uint32_t>(k)]);
 }
 
 #define SPANRAY_WORD(field) static_cast<int>(offsetof(Material, field) / 4)
