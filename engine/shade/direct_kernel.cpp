@@ -31,20 +31,33 @@ struct Shaded {
   Mask valid;
   V3f position, geometric, view, normal;
   I32 material;
+  uint32_t first_material;  // word of SceneData::materials where the first lane's begins
+  bool one_material;        // that of all lanes
   UvLanes uv;
+  PlainSample sample;
   MaterialLanes m;
   Vec radiance;
 
   HWY_INLINE void take(const Frame& frame, const PointLanes& point) {
     position = point.position, geometric = point.geometric, material = point.material;
+    const int32_t first = first_lane(material);
+    first_material = static_cast<uint32_t>(first * kMaterialStride), one_material = all(material == i32(first));
     if (frame.plan.normals) normal = point.normal, view = point.view;
     if (reads_textures(frame)) uv = point.uv;
   }
 };
 
+HWY_INLINE Materials materials_of(const Frame& frame, PlainTextures& plain, Shaded& s) {
+  return {frame, s.valid, {s.material * i32(kMaterialStride), s.first_material, s.one_material}, &plain, &s.sample};
+}
+
 // What maps do: apart, so that vectors without any stay short.
-HWY_NOINLINE void apply_bump(const Materials& g, Shaded& s) { s.normal = bumped_normal(g, s.uv, s.normal); }
-HWY_NOINLINE void apply_textures(const Materials& g, const UvLanes& uv, MaterialLanes& m) { apply_maps(g, uv, m); }
+HWY_NOINLINE void apply_bump(const Frame& frame, PlainTextures& plain, Shaded& s) {
+  s.normal = bumped_normal(materials_of(frame, plain, s), s.uv, s.normal);
+}
+HWY_NOINLINE void apply_textures(const Frame& frame, PlainTextures& plain, Shaded& s) {
+  apply_maps(materials_of(frame, plain, s), s.uv, s.m);
+}
 
 HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
   const float* const ambient = frame.scene->ambient_radiance;
@@ -55,12 +68,19 @@ HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
           mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
 }
 
-HWY_INLINE void add_material(const Frame& frame, PlainTexture& plain, Shaded& s) {
-  const Materials g{frame, s.valid, record_lanes(s.material, kMaterialStride, all(s.material == i32(first_lane(s.material)))), &plain};
-  if (frame.plan.bump) apply_bump(g, s);
+// Where the texture of most maps is read, before any is.
+HWY_INLINE void find_sample(const Frame& frame, PlainTextures& plain, Shaded& s) {
+  const Materials g = materials_of(frame, plain, s);
+  s.sample.use = -1;
+  if (const PlainTexture* texture = plain_texture(g, kDiffuseSlot))
+    find_plain_sample(*texture, s.uv, s.valid, frame.settings.filter, s.sample);
+}
+
+HWY_INLINE void add_material(const Frame& frame, PlainTextures& plain, Shaded& s) {
+  if (frame.plan.bump) apply_bump(frame, plain, s);
   if (frame.plan.normals) s.normal = clamp_to_horizon(s.normal, s.geometric);
-  s.m = constants_of(g);
-  if (reads_textures(frame)) apply_textures(g, s.uv, s.m);
+  s.m = constants_of(materials_of(frame, plain, s));
+  if (reads_textures(frame)) apply_textures(frame, plain, s);
   s.radiance = ambient_of(frame, s.m);
 }
 
@@ -129,7 +149,9 @@ class DirectShader {
     for (int from = 0; from < hits_.count; from += kTogether * kLanes) {
       if (from % kPlaneHits == 0) set_up(from);
       find_points(from);
-      for (int k = 0; k < vectors_; ++k) add_material(frame_, texture_, shaded_[k]);
+      if (reads_textures(frame_))
+        for (int k = 0; k < vectors_; ++k) find_sample(frame_, textures_, shaded_[k]);
+      for (int k = 0; k < vectors_; ++k) add_material(frame_, textures_, shaded_[k]);
       add_lights();
       for (int k = 0; k < vectors_; ++k) store(at_[k], shaded_[k].valid, shaded_[k].radiance);
     }
@@ -192,7 +214,7 @@ class DirectShader {
   const int stride_;          // this far from vector to vector
   PlaneBlock planes_;
   DirectCounts counts_;
-  PlainTexture texture_;
+  PlainTextures textures_;
   Shaded shaded_[kTogether];
   int at_[kTogether], vectors_ = 0;
 };

@@ -26,7 +26,6 @@ struct PlainTexture {
   alignas(64) int32_t last_column[kLevels], last_row[kLevels], columns[kLevels], first[kLevels];
 
   void open(const SceneData& scene, int32_t index) {
-    if (index == use) return;
     use = index;
     const TextureUse& u = scene.texture_uses[static_cast<size_t>(index)];
     plain = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f && u.offset[1] == 0.0f &&
@@ -62,20 +61,20 @@ struct ManyLevels {
   HWY_INLINE F32 operator()(const float* table) const { return float_from_bits((*this)(reinterpret_cast<const int32_t*>(table))); }
 };
 
-// The point in a texture and its level of detail, as in UseLanes.
-struct PlainPlace {
-  F32 s, t;
-  I32 level_256;
+// Those that were read last.
+struct PlainTextures {
+  PlainTexture entry[4];
+  HWY_INLINE const PlainTexture& open(const SceneData& scene, int32_t use) {
+    PlainTexture& texture = entry[use & 3];
+    if (use != texture.use) texture.open(scene, use);
+    return texture;
+  }
 };
 
-HWY_INLINE PlainPlace plain_place(const PlainTexture& texture, const UvLanes& uv) {
-  return {fraction(uv.u), f32(1.0f) - fraction(uv.v), level_of_detail(uv, f32(texture.width), f32(texture.height), i32(texture.levels))};
-}
-
-// find_texels() for bilinear samples.
-template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& texture, const PlainPlace& place, const At& at) {
+// find_texels() for bilinear samples at (s, t).
+template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& texture, F32 s, F32 t, const At& at) {
   const I32 byte = i32(255), one = i32(1), half = i32(128), zero = I32::zero();
-  const I32 x = nearest_i32_small(place.s * at(texture.steps_x)) - half, y = nearest_i32_small(place.t * at(texture.steps_y)) - half;
+  const I32 x = nearest_i32_small(s * at(texture.steps_x)) - half, y = nearest_i32_small(t * at(texture.steps_y)) - half;
   const I32 last_column = at(texture.last_column), last_row = at(texture.last_row), columns = at(texture.columns), first = at(texture.first);
   const I32 left = min_unsigned(shift_right<8>(x), last_column), right = select(left == last_column, zero, left + one);
   const I32 row = min_unsigned(shift_right<8>(y), last_row), top = row * columns + first;
@@ -83,24 +82,34 @@ template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& 
   return {{top + left, top + right, bottom + left, bottom + right}, x & byte, y & byte};
 }
 
-template <class At> HWY_INLINE RawSample sample_plain_level(const SceneData& scene, const PlainTexture& texture, const PlainPlace& place, const At& at) {
-  return blend_texels<3>(scene, find_plain_texels(texture, place, at), false);
+// Where a sample of a plain texture reads.
+struct PlainSample {
+  int32_t use = -1;  // of this one
+  bool blend = false;     // two levels
+  TexelLanes near_level, far_level;
+  I32 weight;  // of the second, in 1/256
+};
+
+HWY_INLINE void find_plain_sample(const PlainTexture& texture, const UvLanes& uv, Mask active, Filter filter, PlainSample& sample) {
+  const F32 s = fraction(uv.u), t = f32(1.0f) - fraction(uv.v);
+  const I32 level_256 = level_of_detail(uv, f32(texture.width), f32(texture.height), i32(texture.levels));
+  const bool trilinear = filter == Filter::kTrilinear;
+  const I32 level = shift_right<8>(trilinear ? level_256 : level_256 + i32(128)), next = min_(level + i32(1), i32(texture.levels - 1));
+  sample.weight = level_256 & i32(255);
+  sample.blend = trilinear && any(active & (sample.weight != i32(0)));
+  sample.use = texture.use;
+  const auto find = [&](const auto& at, const auto& at_next) HWY_ATTR {
+    sample.near_level = find_plain_texels(texture, s, t, at);
+    if (sample.blend) sample.far_level = find_plain_texels(texture, s, t, at_next);
+  };
+  if (all(level == i32(first_lane(level)))) find(OneLevel{first_lane(level)}, OneLevel{first_lane(next)});
+  else find(ManyLevels{level}, ManyLevels{next});
 }
 
 // sample<3>() of a use without gain and base, times kRawToUnit.
-HWY_INLINE V3f sample_plain(const SceneData& scene, const PlainTexture& texture, const PlainPlace& place, Mask active, Filter filter) {
-  const bool trilinear = filter == Filter::kTrilinear;
-  const I32 level = shift_right<8>(trilinear ? place.level_256 : place.level_256 + i32(128));
-  const I32 weight = place.level_256 & i32(255), next = min_(level + i32(1), i32(texture.levels - 1));
-  const bool blend = trilinear && any(active & (weight != i32(0)));
-  RawSample raw;
-  if (all(level == i32(first_lane(level)))) {
-    raw = sample_plain_level(scene, texture, place, OneLevel{first_lane(level)});
-    if (blend) blend_levels(raw, sample_plain_level(scene, texture, place, OneLevel{first_lane(next)}), to_f32(weight) * f32(0x1p-8f), 3);
-  } else {
-    raw = sample_plain_level(scene, texture, place, ManyLevels{level});
-    if (blend) blend_levels(raw, sample_plain_level(scene, texture, place, ManyLevels{next}), to_f32(weight) * f32(0x1p-8f), 3);
-  }
+HWY_INLINE V3f read_plain_sample(const SceneData& scene, const PlainSample& sample) {
+  RawSample raw = blend_texels<3>(scene, sample.near_level, false);
+  if (sample.blend) blend_levels(raw, blend_texels<3>(scene, sample.far_level, false), to_f32(sample.weight) * f32(0x1p-8f), 3);
   const F32 unit = f32(kRawToUnit);
   return {raw.c[0] * unit, raw.c[1] * unit, raw.c[2] * unit};
 }

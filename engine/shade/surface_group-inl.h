@@ -18,7 +18,8 @@ struct Materials {
   const Frame& frame;
   Mask valid;
   RecordLanes material;
-  PlainTexture* plain = nullptr;  // the one read last, if the caller keeps it
+  PlainTextures* plain = nullptr;  // where the caller keeps them, and
+  PlainSample* sample = nullptr;   // a point in one of them
 };
 
 // kLanes entries of a batch, from `at` on. All lanes are stored, valid or not: clear_misses (resolve_kernel.cpp) comes last.
