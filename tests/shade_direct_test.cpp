@@ -14,6 +14,16 @@ namespace {
 
 constexpr int kCount = 1301;  // more than planes are set up for at once, and no whole number of vectors
 
+// The colors of the way through stored surfaces.
+TestRadiance radiance_of_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& surfaces) {
+  TestRadiance radiance(hits.count);
+  resolve_surfaces(frame, hits, surfaces);
+  shade_ambient(frame, surfaces, radiance.at().p);
+  for (int l = 0; l < static_cast<int>(frame.scene->lights.size()); ++l)
+    shade_light(frame, surfaces, hits, l, nullptr, radiance.at().p);
+  return radiance;
+}
+
 class Direct : public testing::TestWithParam<Shading> {};
 
 // Triangles of all sizes, three without area, misses alone and in runs of whole vectors, textures, height maps, all kinds of light.
@@ -42,10 +52,8 @@ TEST_P(Direct, IsTheWayThroughSurfaces) {
       for (const Isa isa : supported_isas()) {
         frame.isa = isa, frame.plan.specular = specular, frame.plan.textures = textures;
         SurfaceBatch surfaces;
-        resolve_surfaces(frame, hits, surfaces);
-        TestRadiance want(kCount), got(kCount + 64);
-        shade_ambient(frame, surfaces, want.at().p);
-        for (int l = 0; l < static_cast<int>(frame.scene->lights.size()); ++l) shade_light(frame, surfaces, hits, l, nullptr, want.at().p);
+        const TestRadiance want = radiance_of_surfaces(frame, hits, surfaces);
+        TestRadiance got(kCount + 64);
         const DirectCounts counts = shade_direct(frame, hits, planes, got.at().p);
         int lit = 0, found = 0;
         for (size_t i = 0; i < kCount; ++i)
@@ -60,6 +68,81 @@ TEST_P(Direct, IsTheWayThroughSurfaces) {
       }
 }
 INSTANTIATE_TEST_SUITE_P(Shading, Direct, testing::Values(Shading::kFlat, Shading::kGouraud, Shading::kPhong));
+
+// Tilted triangles over the whole picture, one behind the other, each of a material of its own: textures of all shapes and
+// scales of uv, as one and as several maps.
+SceneData layers_of_textures(TestRandom& random) {
+  struct Shape { int width, height; double uv; };
+  constexpr Shape kShapes[] = {{64, 64, 1},    {64, 64, 0.02}, {37, 5, 3},     {1, 1, 1},
+                                  {1, 128, 0.4}, {256, 2, 9},    {64, 32, 300}, {64, 64, 40}};
+  std::vector<Material> materials(std::size(kShapes));
+  std::vector<SoupTriangle> soup;
+  for (size_t i = 0; i < std::size(kShapes); ++i) {
+    Material& m = materials[i];
+    for (float* color : {m.ambient, m.diffuse, m.specular, m.emission})
+      for (int k = 0; k < 3; ++k) color[k] = static_cast<float>(random.uniform(0.2, 1));
+    m.shininess = 5;
+    const double z = -static_cast<double>(i), uv = kShapes[i].uv;
+    SoupTriangle t = soup_triangle({-20, -20, z - 12}, {30, -20, z + 1}, {-20, 30, z - 3}, static_cast<uint32_t>(i));
+    soup.push_back(with_uv(t, glm::dvec2(-uv, 0.3 * uv), {uv, uv}, {0.1 * uv, -2 * uv}));
+  }
+  SceneData scene = make_test_scene(soup, materials);
+  for (size_t i = 0; i < std::size(kShapes); ++i) {
+    const auto noise = [&](int, int) { return noise_texel(random); };
+    const auto add = [&] { return add_texture(scene, kShapes[i].width, kShapes[i].height, noise); };
+    Material& m = scene.materials[i];
+    m.map_diffuse = add();
+    if (i % 3 == 0) m.map_specular = add(), m.map_emission = m.map_diffuse;
+    if (i % 3 == 1) m.map_ambient = add();
+  }
+  return scene;
+}
+
+// Textures that whole vectors read, against the same bits read lane by lane: as they are, and with each option of a use.
+TEST(DirectTextures, AreThoseOfSurfaces) {
+  TestRandom random(43);
+  SceneData scene = layers_of_textures(random);
+  scene.lights = make_lit_scene(random, 1).lights;
+  const uint32_t layers = static_cast<uint32_t>(scene.triangles.size());
+  Camera camera;
+  camera.eye[0] = camera.eye[1] = 0, camera.eye[2] = 4, camera.target[0] = camera.target[1] = camera.target[2] = 0;
+  auto t = full_frame(std::move(scene), camera, 512, 512);
+  Frame& frame = t->frame;
+  frame.plan.lifted_rays = frame.plan.bounces = frame.plan.shadow_rays = frame.plan.bump = false;
+  HitBatch hits;
+  for (int run = 0; run < 40; ++run) {  // a triangle each, now and then ending within a vector, in blocks of 4 x 4
+    const uint32_t x0 = random.bits() % 500, y0 = random.bits() % 500, triangle = static_cast<uint32_t>(run) % layers;
+    for (uint32_t i = 0; i < (run % 5 == 4 ? 40u : 64u); ++i)
+      add_hit(hits, pack_pixel(x0 + i % 4 + i / 32 * 4, y0 + i / 4 % 8), 0, i == 37 ? kNoPrimitive : triangle);
+  }
+  hits.rays = nullptr;
+  AlignedBuffer<float> planes;
+  SurfaceBatch surfaces;
+  using Change = void (*)(TextureUse&);
+  constexpr Change kChanges[] = {
+      [](TextureUse&) {},          [](TextureUse& u) { u.scale[0] = 2; },   [](TextureUse& u) { u.scale[1] = 2; },
+      [](TextureUse& u) { u.offset[0] = 0.3f; }, [](TextureUse& u) { u.offset[1] = 0.3f; }, [](TextureUse& u) { u.clamp = 1; },
+      [](TextureUse& u) { u.gain = 0.5f; }, [](TextureUse& u) { u.base = 0.1f; }};
+  TestRadiance plain(hits.count);
+  for (const Change& change : kChanges)
+    for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear})
+      for (const Isa isa : supported_isas()) {
+        const std::vector<TextureUse> uses = t->scene.texture_uses;
+        for (TextureUse& u : t->scene.texture_uses) change(u);
+        frame.isa = isa, frame.settings.filter = filter;
+        const TestRadiance want = radiance_of_surfaces(frame, hits, surfaces);
+        TestRadiance got(hits.count + 64);
+        shade_direct(frame, hits, planes, got.at().p);
+        for (size_t i = 0; i < static_cast<size_t>(hits.count); ++i)
+          for (size_t c = 0; c < 3 && hits.primitive[i] != kNoPrimitive; ++c)
+            ASSERT_EQ(std::memcmp(&want.channel[c][i], &got.channel[c][i], 4), 0)
+                << isa_name(isa) << " change " << &change - kChanges << " filter " << static_cast<int>(filter) << " entry " << i;
+        t->scene.texture_uses = uses;
+        if (filter != Filter::kTrilinear) continue;
+        if (&change == kChanges) plain = want;
+        EXPECT_EQ(plain == want, &change == kChanges);
+      }
+}
 
 uint64_t count(const FrameStats& stats, const std::string& name) {
   for (const auto& [of, value] : stats.counts)

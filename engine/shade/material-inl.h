@@ -33,7 +33,8 @@ template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials
 // The texture of this kind if it is plain, or nullptr.
 HWY_INLINE const PlainTexture* plain_texture(const Materials& g, const MapSlot& slot) {
   const Frame& frame = g.frame;
-  if (g.plain == nullptr || !g.material.uniform || frame.settings.filter == Filter::kNearest || (frame.plan.maps & slot.bit) == 0) return nullptr;
+  if (g.plain == nullptr || !g.material.uniform || (frame.plan.maps & slot.bit) == 0) return nullptr;
+  if (frame.settings.filter == Filter::kNearest) return nullptr;
   const int32_t map = uniform_map(g, slot.word);
   if (map < 0) return nullptr;
   const PlainTexture& texture = g.plain->open(*frame.scene, map);
@@ -41,12 +42,15 @@ HWY_INLINE const PlainTexture* plain_texture(const Materials& g, const MapSlot& 
 }
 
 // visit(lanes that have a map of this kind, its color) if there are any.
-template <class Visit> HWY_INLINE void sample_color(const Materials& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
+template <class Visit>
+HWY_INLINE void sample_color(const Materials& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
   if (const PlainTexture* texture = plain_texture(g, slot)) {
     if (g.sample->use != texture->use) find_plain_sample(*texture, uv, g.valid, g.frame.settings.filter, *g.sample);
     return visit(g.valid, read_plain_sample(*g.frame.scene, *g.sample));
   }
-  sample_map<3>(g, uv, slot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR { visit(map.active, color_of(*g.frame.scene, map, raw)); });
+  sample_map<3>(g, uv, slot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
+    visit(map.active, color_of(*g.frame.scene, map, raw));
+  });
 }
 
 // color times the map, in lanes that have it.

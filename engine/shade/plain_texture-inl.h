@@ -1,5 +1,5 @@
-// Colors of a texture where all lanes read the same one and its use is plain: not scaled, moved, clamped or remapped. So are nearly all.
-// What depends on the level alone stands in tables then, and a vector that sees one level, as most do, broadcasts it from memory.
+// Colors of a texture where all lanes read the same one and its use is plain: not scaled, moved, clamped or remapped. So are
+// nearly all. What depends on the level alone stands in tables then, and a vector that sees one level, as most do, broadcasts it.
 // Include inside a *_kernel.cpp (simd/dispatch.h), after the project headers.
 #if defined(SPANRAY_PLAIN_TEXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_PLAIN_TEXTURE_INL_H_
@@ -25,11 +25,12 @@ struct PlainTexture {
   alignas(64) float steps_x[kLevels], steps_y[kLevels];  // size in 1/256 texels
   alignas(64) int32_t last_column[kLevels], last_row[kLevels], columns[kLevels], first[kLevels];
 
+  // index: of a use, in SceneData::texture_uses.
   void open(const SceneData& scene, int32_t index) {
     use = index;
     const TextureUse& u = scene.texture_uses[static_cast<size_t>(index)];
-    plain = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f && u.offset[1] == 0.0f &&
-            u.base == 0.0f && u.gain == 1.0f;
+    plain = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f &&
+            u.offset[1] == 0.0f && u.base == 0.0f && u.gain == 1.0f;
     if (!plain) return;
     const Texture& texture = scene.textures[static_cast<size_t>(u.texture)];
     levels = texture.levels, width = static_cast<float>(texture.width), height = static_cast<float>(texture.height);
@@ -58,14 +59,17 @@ struct ManyLevels {
     if constexpr (kLanes == PlainTexture::kLevels) return lookup(reinterpret_cast<const uint32_t*>(table), level);
     else return gather(table, level);
   }
-  HWY_INLINE F32 operator()(const float* table) const { return float_from_bits((*this)(reinterpret_cast<const int32_t*>(table))); }
+  HWY_INLINE F32 operator()(const float* table) const {
+    return float_from_bits((*this)(reinterpret_cast<const int32_t*>(table)));
+  }
 };
 
-// Those that were read last.
+// Those that were read last, by the lower bits of their uses.
 struct PlainTextures {
-  PlainTexture entry[4];
+  static constexpr int kEntries = 4;
+  PlainTexture entry[kEntries];
   HWY_INLINE const PlainTexture& open(const SceneData& scene, int32_t use) {
-    PlainTexture& texture = entry[use & 3];
+    PlainTexture& texture = entry[use % kEntries];
     if (use != texture.use) texture.open(scene, use);
     return texture;
   }
@@ -75,7 +79,8 @@ struct PlainTextures {
 template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& texture, F32 s, F32 t, const At& at) {
   const I32 byte = i32(255), one = i32(1), half = i32(128), zero = I32::zero();
   const I32 x = nearest_i32_small(s * at(texture.steps_x)) - half, y = nearest_i32_small(t * at(texture.steps_y)) - half;
-  const I32 last_column = at(texture.last_column), last_row = at(texture.last_row), columns = at(texture.columns), first = at(texture.first);
+  const I32 last_column = at(texture.last_column), last_row = at(texture.last_row);
+  const I32 columns = at(texture.columns), first = at(texture.first);
   const I32 left = min_unsigned(shift_right<8>(x), last_column), right = select(left == last_column, zero, left + one);
   const I32 row = min_unsigned(shift_right<8>(y), last_row), top = row * columns + first;
   const I32 bottom = select(row == last_row, first, top + columns);
@@ -84,17 +89,21 @@ template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& 
 
 // Where a sample of a plain texture reads.
 struct PlainSample {
-  int32_t use = -1;  // of this one
-  bool blend = false;     // two levels
+  int32_t use = -1;    // of that texture
+  bool blend = false;  // two levels, else only the first is set
   TexelLanes near_level, far_level;
-  I32 weight;  // of the second, in 1/256
+  I32 weight;          // of the second, in 1/256
 };
 
-HWY_INLINE void find_plain_sample(const PlainTexture& texture, const UvLanes& uv, Mask active, Filter filter, PlainSample& sample) {
+// Contract: with read_plain_sample(), the bits that open_use(), sample<3>() and color_of() give in the active lanes. Not for
+//           Filter::kNearest.
+HWY_INLINE void find_plain_sample(const PlainTexture& texture, const UvLanes& uv, Mask active, Filter filter,
+                                  PlainSample& sample) {
   const F32 s = fraction(uv.u), t = f32(1.0f) - fraction(uv.v);
   const I32 level_256 = level_of_detail(uv, f32(texture.width), f32(texture.height), i32(texture.levels));
   const bool trilinear = filter == Filter::kTrilinear;
-  const I32 level = shift_right<8>(trilinear ? level_256 : level_256 + i32(128)), next = min_(level + i32(1), i32(texture.levels - 1));
+  const I32 level = shift_right<8>(trilinear ? level_256 : level_256 + i32(128));
+  const I32 next = min_(level + i32(1), i32(texture.levels - 1));
   sample.weight = level_256 & i32(255);
   sample.blend = trilinear && any(active & (sample.weight != i32(0)));
   sample.use = texture.use;
@@ -106,7 +115,7 @@ HWY_INLINE void find_plain_sample(const PlainTexture& texture, const UvLanes& uv
   else find(ManyLevels{level}, ManyLevels{next});
 }
 
-// sample<3>() of a use without gain and base, times kRawToUnit.
+// Gain 1 and base 0 would change no bit, nor does max_() with 0: blends of texels are not negative.
 HWY_INLINE V3f read_plain_sample(const SceneData& scene, const PlainSample& sample) {
   RawSample raw = blend_texels<3>(scene, sample.near_level, false);
   if (sample.blend) blend_levels(raw, blend_texels<3>(scene, sample.far_level, false), to_f32(sample.weight) * f32(0x1p-8f), 3);

@@ -49,7 +49,8 @@ HWY_INLINE I32 material_map(const Materials& g, int k) {
 
 // The same where all lanes have one material.
 HWY_INLINE int32_t uniform_map(const Materials& g, int k) {
-  return static_cast<int32_t>(reinterpret_cast<const uint32_t*>(g.frame.scene->materials.data())[g.material.first + static_cast<uint32_t>(k)]);
+  const int32_t* const words = reinterpret_cast<const int32_t*>(g.frame.scene->materials.data());
+  return words[g.material.first + static_cast<uint32_t>(k)];
 }
 
 #define SPANRAY_WORD(field) static_cast<int>(offsetof(Material, field) / 4)
