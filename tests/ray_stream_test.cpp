@@ -1,6 +1,8 @@
 // Incoherent rays that go down the tree as sets answer as if each went alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "support/ray_answers.h"
@@ -55,6 +57,50 @@ TEST(RayStream, ScatteredRaysEqualBruteForceInAnyOrder) {
     }
   }
   EXPECT_GT(ends, 100);
+}
+
+// A room of few large triangles: rays that end just before or behind a wall, most of whose corners are behind them or beyond their end. Rays
+// from the plane of a wall, and from just off it.
+TEST(RayStream, RaysThatEndAtLargeTriangles) {
+  TestRandom random(44);
+  std::vector<SoupTriangle> soup;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      glm::dvec3 c(0), u(0), v(0);
+      c[axis] = side, u[(axis + 1) % 3] = 1, v[(axis + 2) % 3] = 1;
+      soup.push_back(soup_triangle(c - u - v, c + u - v, c + u + v)), soup.push_back(soup_triangle(c - u - v, c + u + v, c - u + v));
+    }
+  for (int i = 0; i < 12; ++i) soup.push_back(soup_triangle(random_point(random, 4), random_point(random, 4), random_point(random, 4)));
+  auto t = frame_of(soup);
+  const Bvh bvh = build_all(*t);
+  int ends = 0, stopped = 0, counted = 0;
+  for (int batch = 0; batch < 24; ++batch) {
+    constexpr int kRays = 512;
+    RayBatch rays;
+    const glm::dvec3 center = random_point(random, 0.8);
+    for (int i = 0; i < kRays; ++i) {
+      glm::dvec3 origin = center + random_point(random, 0.1);
+      if (i % 6 == 0) origin[i % 3] = i % 12 == 0 ? 1.0 : 1.0 - 1e-6;
+      add_ray(rays, origin, random_point(random, 1));
+    }
+    const Answers free = brute_force(*t, rays);
+    for (int i = 0; i < kRays; ++i) {  // where the plane of what is hit is, less or more by a share from 1e-7 to 1e-1
+      const uint32_t hit = free.closest[static_cast<size_t>(i)];
+      if (hit == kNoPrimitive || i % 8 == 7) continue;
+      const glm::dvec3 a = scene_vertex(t->scene, hit, 0);
+      const glm::dvec3 n = cross3(scene_vertex(t->scene, hit, 1) - a, scene_vertex(t->scene, hit, 2) - a);
+      const double plane = dot3(a - ray_origin(rays, i), n) / dot3(ray_direction(rays, i), n);
+      const double off = std::pow(10, -random.uniform(1, 7));
+      rays.t_max[static_cast<size_t>(i)] = static_cast<float>(std::max(0.0, plane * (i % 2 == 0 ? 1 - off : 1 + off)));
+      ++ends;
+    }
+    const Answers want = brute_force(*t, rays);
+    stopped += static_cast<int>(std::count(want.any.begin(), want.any.end(), true)), counted += kRays;
+    for (const Isa isa : supported_isas()) expect_equal(trace(*t, bvh, rays, isa), want, rays, isa_name(isa));
+  }
+  EXPECT_GT(ends, 8000);
+  EXPECT_GT(stopped, counted / 4);
+  EXPECT_LT(stopped, counted * 3 / 4);
 }
 
 // Boxes without thickness, met at their very edges and corners, and rays along axes and in the planes of boxes: what culls must take all that

@@ -60,7 +60,7 @@ HWY_INLINE LaneHits triangle_lanes(const RayPacket& p, const TriangleBlock& bloc
   if constexpr (kSure == SureHits::kOfAny) {
     hits.sure = hits.maybe & to_bits(inside & (last * f32(1 + 0x1p-20f) < p.limit));
   } else {
-    *distances = bounds_on_t<F32, f32>(edge_u, edge_v, edge_w, t, error, first, last);
+    *distances = bounds_on_t<F32, f32>(edge_u, edge_v, edge_w, t, error, first, last, last);
     hits.sure = hits.maybe & to_bits(inside & (distances->size > f32(kLeastSureSize)));
   }
   return hits;

@@ -15,6 +15,7 @@
 
 #include "ray/packet-inl.h"
 #include "simd/bit_sets-inl.h"
+#include "simd/pairs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -135,7 +136,7 @@ class AnyStream {
   HWY_INLINE void trace(uint32_t* out) {
     if (all_ == 0) return;
     alive_ = all_;
-    Entry stack[kBvhStackSize];
+    Entry stack[kBvhStackSize + 1];  // put() writes one past the last
     stack[0] = {alive_, 0};
     for (int top = 1; top > 0;) {
       Entry entry = stack[--top];
@@ -145,7 +146,8 @@ class AnyStream {
       const int n = std::popcount(entry.rays);
       if (kLanes8 == 1 || n <= kFewRays) alone(entry);
       else if ((entry.child & kLeafBit) != 0) leaf(entry);
-      else top = n >= kManyRays ? push_many(entry, stack, top) : push(entry, stack, top);
+      else if (n >= kManyRays) top = push_many(entry, stack, top);
+      else top = kHasPairs ? push_pairs(entry, stack, top) : push(entry, stack, top);
     }
     const uint64_t found = all_ & ~alive_;
     for (int p = 0; p < packets_; ++p) {
@@ -158,7 +160,7 @@ class AnyStream {
  private:
   struct Entry { uint64_t rays; uint32_t child; };
   static constexpr int kPackets = kStreamRays / kLanes;
-  static constexpr int kManyRays = 20;  // from so many on, lanes are rays, though some of these are not asked for
+  static constexpr int kManyRays = kHasPairs ? 32 : 20;  // from so many on, lanes are rays, though some of them are not asked for
 
   HWY_INLINE AnyVisitor visitor(int r) const { return {batch_, ray_[r].exact, first_[r / kLanes] + r % kLanes, boxes_.limit[r]}; }
   HWY_INLINE void end(int r) { alive_ &= ~(uint64_t{1} << r); }
@@ -178,6 +180,40 @@ class AnyStream {
     });
   }
 
+  // Without a branch: whether any ray meets a child is hard to foretell.
+  HWY_INLINE static int put(Entry* stack, int top, uint64_t rays, uint32_t child) {
+    stack[top] = {rays, child};
+    return top + (rays != 0);
+  }
+
+  // Lanes are the children of the node, for two rays at a time. What each ray meets stays in registers.
+  HWY_INLINE int push_pairs(const Entry& entry, Entry* stack, int top) const {
+    const BvhNode& node = data_.nodes[entry.child];
+    F32 low[3], high[3];
+    for (int k = 0; k < 3; ++k) low[k] = twice(node.bounds[k]), high[k] = twice(node.bounds[k + 3]);
+    const uint32_t used = to_bits(low[0] <= high[0]);
+    uint64_t meets[kManyRays / 8] = {};
+    uint64_t rest = entry.rays;
+    for (int w = 0; w < kManyRays / 8 && rest != 0; ++w) {
+      int at = 0;
+      do {
+        const int a = std::countr_zero(rest);
+        rest &= rest - 1;
+        const int b = rest != 0 ? std::countr_zero(rest) : a;
+        rest &= rest - 1;
+        F32 origin[3], inverse[3];
+        for (int k = 0; k < 3; ++k)
+          origin[k] = halves(boxes_.origin[k][a], boxes_.origin[k][b]), inverse[k] = halves(boxes_.inverse[k][a], boxes_.inverse[k][b]);
+        const F32 limit = halves(boxes_.limit[a], boxes_.limit[b]);
+        const auto m = meets_box(low, high, origin, inverse, limit, [](float x) HWY_ATTR { return f32(x); });
+        meets[w] |= static_cast<uint64_t>(to_bits(m) & used) << at;
+        at += 2 * kBvhWidth;
+      } while (at < 64 && rest != 0);
+    }
+    for (int c = 0; c < kBvhWidth; ++c) top = put(stack, top, members_with(meets, c, entry.rays), node.child[c]);
+    return top;
+  }
+
   // Lanes are the children of the node.
   HWY_INLINE int push(const Entry& entry, Entry* stack, int top) const {
     const BvhNode& node = data_.nodes[entry.child];
@@ -193,8 +229,7 @@ class AnyStream {
         meets[r] = static_cast<uint8_t>(meets[r] | (to_bits(m) & used) << s);
       });
     }
-    for (int c = 0; c < kBvhWidth; ++c)
-      if (const uint64_t set = set_of_bit(meets, c); set != 0) stack[top++] = {set, node.child[c]};
+    for (int c = 0; c < kBvhWidth; ++c) top = put(stack, top, set_of_bit(meets, c), node.child[c]);
     return top;
   }
 
@@ -216,7 +251,7 @@ class AnyStream {
       }
     }
     for (int c = 0; c < kBvhWidth; ++c)
-      if (set[c] &= entry.rays; set[c] != 0 && node.bounds[0][c] <= node.bounds[3][c]) stack[top++] = {set[c], node.child[c]};
+      top = put(stack, top, node.bounds[0][c] <= node.bounds[3][c] ? set[c] & entry.rays : 0, node.child[c]);
     return top;
   }
 

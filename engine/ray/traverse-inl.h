@@ -61,20 +61,22 @@ template <class Ray> HWY_INLINE ChildLanes box_children(const BvhNode& node, int
 template <class F> struct BoundsOnT { F low, high, size; };  // size: |det|
 inline constexpr float kLeastSureSize = 0x1p-100f;  // of det: above, it has the precision of normal floats
 template <class F, F (*same)(float)>
-HWY_INLINE BoundsOnT<F> bounds_on_t(F edge_u, F edge_v, F edge_w, const F (&t)[3], F error, F first, F last) {
+HWY_INLINE BoundsOnT<F> bounds_on_t(F edge_u, F edge_v, F edge_w, const F (&t)[3], F error, F first, F last, F reach) {
   const F det = edge_u + edge_v + edge_w, one_by_det = same(1.0f) / det;
   const F middle = edge_u * one_by_det * t[0] + edge_v * one_by_det * t[1] + edge_w * one_by_det * t[2];
-  const F off = same(6.1f) * error * (last - first) * abs_(one_by_det) + (same(0x1p-18f) * last + same(0x1p-120f));
+  const F off = same(6.1f) * error * (last - first) * abs_(one_by_det) + (same(0x1p-18f) * reach + same(0x1p-120f));
   return {middle - off, middle + off, abs_(det)};
 }
 
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
 // that it accepts. Any hit: at less than the limit: the ray passes inside by more than the error of the edge functions, every vertex is in
 // front of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
-// 10 roundings too small). Closest hit: with low <= t <= high.
+// 10 roundings too small). Closest hit: with low <= t <= high. kBehind, for any hit: also where vertices are behind the origin or beyond the limit,
+// by bounds on t, which take a division. With 0 < low the hit is in front by far more than hit_triangle() asks for: its errors, of doubles, are
+// less than a millionth of those here.
 struct Candidates { uint32_t maybe, sure; };
 struct CandidateDistances { alignas(32) float low[kBvhWidth], high[kBvhWidth]; };
-template <class Visitor, bool kEarlyOut = true>
+template <class Visitor, bool kEarlyOut = true, bool kBehind = false>
 HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray, float limit, CandidateDistances& distances) {
   const int kx = ray.exact.kx, ky = ray.exact.ky, kz = ray.exact.kz;
   const F8 ox = f8(ray.exact.origin[kx]), oy = f8(ray.exact.origin[ky]), oz = f8(ray.exact.origin[kz]);
@@ -99,11 +101,16 @@ HWY_INLINE Candidates candidates(const TriangleBlock& block, const LaneRay& ray,
     const uint32_t maybe = ~to_bits(miss) & ((1u << kLanes8) - 1);
     found.maybe |= maybe << s;
     if (!(Visitor::kAny || Visitor::kClosest) || (kEarlyOut && maybe == 0)) continue;
-    const Mask8 inside = ((least > error) | (greatest < -error)) & (first > f8(0.0f));
-    if constexpr (Visitor::kAny) {
+    Mask8 inside = (least > error) | (greatest < -error);
+    if constexpr (!kBehind) inside = inside & (first > f8(0.0f));
+    if constexpr (kBehind) {
+      const BoundsOnT<F8> bounds = bounds_on_t<F8, f8>(edge_u, edge_v, edge_w, t, error, first, last, cull_max(last, -first));
+      inside = inside & (bounds.size > f8(kLeastSureSize)) & (bounds.low > f8(0.0f)) & (bounds.high < f8(limit));
+      found.sure |= (to_bits(inside) & maybe) << s;
+    } else if constexpr (Visitor::kAny) {
       found.sure |= (to_bits(inside & (last * f8(1 + 0x1p-20f) < f8(limit))) & maybe) << s;
     } else {
-      const BoundsOnT<F8> bounds = bounds_on_t<F8, f8>(edge_u, edge_v, edge_w, t, error, first, last);
+      const BoundsOnT<F8> bounds = bounds_on_t<F8, f8>(edge_u, edge_v, edge_w, t, error, first, last, last);
       found.sure |= (to_bits(inside & (bounds.size > f8(kLeastSureSize))) & maybe) << s;
       bounds.low.store(distances.low + s), bounds.high.store(distances.high + s);
     }
@@ -167,10 +174,17 @@ HWY_INLINE TriangleView triangle_at(const Bvh::Data& data, uint32_t place) {
 template <class Visitor>
 HWY_INLINE bool visit_candidates(const TriangleBlock& block, uint32_t first, const Candidates& found, const CandidateDistances& t_of, const LaneRay& ray,
                                  Visitor& visitor) {
-  if constexpr (Visitor::kAny)
+  uint32_t rest = found.maybe;
+  if constexpr (Visitor::kAny) {
     for (uint32_t bits = found.sure; bits != 0; bits &= bits - 1)
       if (block.primitive[std::countr_zero(bits)] != ray.from && visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
-  for (uint32_t bits = found.maybe; bits != 0; bits &= bits - 1) {
+    rest &= ~words_equal(block.primitive, ray.from);
+    if (rest == 0) return false;
+    CandidateDistances unused;
+    for (uint32_t bits = candidates<Visitor, false, true>(block, ray, visitor.limit, unused).sure & rest; bits != 0; bits &= bits - 1)
+      if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
+  }
+  for (uint32_t bits = rest; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);
     if (block.primitive[lane] == ray.from) continue;
     [[maybe_unused]] const uint32_t place = first + static_cast<uint32_t>(lane);

@@ -1,4 +1,4 @@
-// Sets of up to 64 things as words, out of bytes of bits. Included like simd/lanes-inl.h.
+// Sets of up to 64 things as words, out of bytes of bits, which may be those of the members only. Included like simd/lanes-inl.h.
 #if defined(SPANRAY_BIT_SETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_BIT_SETS_INL_H_
 #undef SPANRAY_BIT_SETS_INL_H_
@@ -28,6 +28,21 @@ HWY_INLINE uint64_t set_of_bit(const uint8_t* bytes, int b) {
     set |= word << i;
   }
   return set;
+}
+
+// bits: eight of each member of a set, lowest member first, eight members a word. Returns the members that have bit b. There are no more than
+// 8 * kWords; bits beyond the last one do not matter.
+template <int kWords> HWY_INLINE uint64_t members_with(const uint64_t (&bits)[kWords], int b, uint64_t set) {
+  uint64_t chosen = 0;  // bit i: member i
+#if HWY_TARGET == HWY_AVX3
+  for (int w = 0; w < kWords; ++w) chosen |= _pext_u64(bits[w], uint64_t{0x0101010101010101u} << b) << (8 * w);
+  return _pdep_u64(chosen, set);
+#else
+  int i = 0;
+  for (uint64_t rest = set; rest != 0; rest &= rest - 1, ++i)
+    if ((bits[i / 8] >> (8 * (i % 8) + b) & 1) != 0) chosen |= rest & -rest;
+  return chosen;
+#endif
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
