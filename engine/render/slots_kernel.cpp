@@ -19,7 +19,6 @@ HWY_INLINE Mask hits_at(const uint32_t* primitive, int i, int slots) {
 }
 
 int pick_slots(const uint32_t* primitive, const uint32_t* pixel, int slots, uint32_t* slot, uint32_t* hit_primitive, uint32_t* hit_pixel) {
-  const auto words = [](uint32_t* p) { return reinterpret_cast<int32_t*>(p); };
   int hits = 0;
   for (int i = 0; i < slots; i += kLanes) {
     const Mask hit = hits_at(primitive, i, slots);
@@ -28,9 +27,9 @@ int pick_slots(const uint32_t* primitive, const uint32_t* pixel, int slots, uint
       hits += kLanes;
       continue;
     }
-    compress_store(I32::load(primitive + i), hit, words(hit_primitive) + hits);
-    compress_store(I32::load(pixel + i), hit, words(hit_pixel) + hits);
-    hits += compress_store(lane_iota(i), hit, words(slot) + hits);
+    compress_store(I32::load(primitive + i), hit, hit_primitive + hits);
+    compress_store(I32::load(pixel + i), hit, hit_pixel + hits);
+    hits += compress_store(lane_iota(i), hit, slot + hits);
   }
   return hits;
 }

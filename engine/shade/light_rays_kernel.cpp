@@ -38,23 +38,27 @@ HWY_INLINE void store3(const V3& v, float out[3][kLanes]) { v.x.store(out[0]), v
 
 struct ShadowRay { V3 origin, direction; F32 t_max; I32 from; };
 
-// The rays of active lanes of surfaces i .., as rays n and on.
+// The rays of active lanes of surfaces i .., as rays n and on. Writes whole vectors: up to kLanes entries past them.
 HWY_INLINE void append(const SurfaceBatch& s, int i, Mask active, const ShadowRay& ray, RayBatch& rays,
                        AlignedBuffer<uint32_t>& surface_of_ray, int& n) {
-  float origin[3][kLanes], direction[3][kLanes], t_max[kLanes];
-  uint32_t from[kLanes];
-  store3(ray.origin, origin);
-  store3(ray.direction, direction);
-  ray.t_max.store(t_max);
-  ray.from.store(from);
-  for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
-    const int k = __builtin_ctz(bits);
-    for (int a = 0; a < 3; ++a) rays.origin[a][n] = origin[a][k], rays.direction[a][n] = direction[a][k];
-    rays.t_max[n] = t_max[k];
-    rays.pixel[n] = s.pixel[i + k];
-    rays.from[n] = from[k];
-    surface_of_ray[n++] = static_cast<uint32_t>(i + k);
+  const F32* const origin[3] = {&ray.origin.x, &ray.origin.y, &ray.origin.z};
+  const F32* const direction[3] = {&ray.direction.x, &ray.direction.y, &ray.direction.z};
+  const I32 pixel = I32::load(s.pixel + i), surface = lane_iota(i);
+  if (all(active)) {
+    for (int a = 0; a < 3; ++a) origin[a]->store(rays.origin[a].data() + n), direction[a]->store(rays.direction[a].data() + n);
+    ray.t_max.store(rays.t_max.data() + n);
+    pixel.store(rays.pixel.data() + n), ray.from.store(rays.from.data() + n), surface.store(surface_of_ray.data() + n);
+    n += kLanes;
+    return;
   }
+  for (int a = 0; a < 3; ++a) {
+    compress_store(*origin[a], active, rays.origin[a].data() + n);
+    compress_store(*direction[a], active, rays.direction[a].data() + n);
+  }
+  compress_store(ray.t_max, active, rays.t_max.data() + n);
+  compress_store(pixel, active, rays.pixel.data() + n);
+  compress_store(ray.from, active, rays.from.data() + n);
+  n += compress_store(surface, active, surface_of_ray.data() + n);
 }
 
 void resize_rays(int n, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
@@ -73,7 +77,7 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
   const LightLanes lanes = broadcast_light(light);
   const bool by_normal = frame.settings.shading == Shading::kPhong;
   int n = rays.count;
-  resize_rays(n + s.count, rays, surface_of_ray);
+  resize_rays(n + s.count + kLanes, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, nullptr);
     if (!any(active)) continue;
@@ -174,7 +178,7 @@ void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light
 // since a ray meets nothing where it starts.
 void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
   int n = 0;
-  resize_rays(s.count, rays, surface_of_ray);
+  resize_rays(s.count + kLanes, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     const Mask liftable = has_lift(s, i) & active_lanes(s, i, nullptr);
     if (!any(liftable)) continue;

@@ -207,6 +207,7 @@ HWY_INLINE int compress_store(I32 a, Mask m, int32_t* p) {
   hn::StoreU(hn::Compress(a.v, hn::RebindMask(DI(), m.m)), DI(), p);
   return count(m);
 }
+HWY_INLINE int compress_store(I32 a, Mask m, uint32_t* p) { return compress_store(a, m, reinterpret_cast<int32_t*>(p)); }
 HWY_INLINE int compress_store(F32 a, Mask m, float* p) {
   hn::StoreU(hn::Compress(a.v, m.m), DF(), p);
   return count(m);
