@@ -199,7 +199,7 @@ TEST(RayInstance, MasksCullingAndTheTriangleThatARayLeaves) {
   materials[1].transparency = static_cast<int32_t>(MaterialTransparency::kMask);
   materials[1].opacity = 0.5f;
   auto t = frame_of_scene(s.build(materials));
-  t->frame.accept_ray = [](const Frame&, const RayBatch& rays, int ray, uint32_t primitive) { return (rays.pixel[static_cast<size_t>(ray)] + primitive) % 2 == 0; };
+  t->frame.accept_rays = accept_every_other;
   t->frame.settings.culling = Culling::kBack;
   const Bvh two = build(*t, InstanceUse::kAlways), flat = build(*t, InstanceUse::kNever);
   ASSERT_EQ(places(two), 9u);

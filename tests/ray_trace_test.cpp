@@ -188,9 +188,9 @@ TEST(RayTrace, Y10_UnitSphereFromFarAway) {
 
 // A mask that refuses by pixel and primitive, like a screen-door; counts who was asked.
 int asked_wrongly = 0;
-bool every_third(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive) {
+uint32_t every_third(const Frame& frame, const RayBatch& rays, int first, uint32_t primitive, uint32_t candidates) {
   asked_wrongly += !(flags_of(frame, primitive) & kMaterialMasked);
-  return (rays.pixel[static_cast<size_t>(ray)] + primitive) % 3 == 0;
+  return accept_each(rays, first, candidates, [primitive](uint32_t pixel) { return (pixel + primitive) % 3 == 0; });
 }
 
 TEST(RayTrace, MasksAndCullingFilterHits) {
@@ -202,7 +202,7 @@ TEST(RayTrace, MasksAndCullingFilterHits) {
   add_random_triangles(soup, random, 100, 0.8, 0);
   add_random_triangles(soup, random, 200, 0.8, 1);
   auto t = frame_of(soup, materials);
-  t->frame.accept_ray = &every_third;
+  t->frame.accept_rays = &every_third;
   const Bvh bvh = build_all(*t);
   const RayBatch rays = random_rays(random, 5000);
   const auto mask = [&](int i, uint32_t p) { return material_of(t->scene.triangles[p]) == 0 || (rays.pixel[static_cast<size_t>(i)] + p) % 3 == 0; };

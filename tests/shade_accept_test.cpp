@@ -1,6 +1,10 @@
 // accept(hit): alpha masks and screen-door, the same for rows of pixels and for rays.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 #include "frame/transparency.h"
 #include "support/quad_frame.h"
 
@@ -91,7 +95,7 @@ TEST(ShadeAccept, RowsAndPrimaryRaysAgreeBitForBit) {
         const int x = static_cast<int>(rays.pixel[static_cast<size_t>(i)] & 0xffff), y = static_cast<int>(rays.pixel[static_cast<size_t>(i)] >> 16);
         for (const uint32_t primitive : {0u, 1u}) {
           const uint32_t bit = accept_row(t->frame, primitive, x, y, 1u);
-          ASSERT_EQ(bit, accept_ray(t->frame, rays, i, primitive) ? 1u : 0u) << x << " " << y;
+          ASSERT_EQ(bit, accept_rays(t->frame, rays, i, primitive, 1u)) << x << " " << y;
           accepted += static_cast<int>(bit);
           if (x % 32 == 0) {
             const uint32_t row = accept_row(t->frame, primitive, x, y, 0xffffffffu);
@@ -114,11 +118,38 @@ TEST(ShadeAccept, OtherRaysUseTheMaskOfThePixelThatStartedThem) {
     for (uint32_t x = 0; x < 8; ++x) add_ray(rays, {3, 2, 1}, {0.1, 0.2, -1}, pack_pixel(x, y));
   int count = 0;
   for (int i = 0; i < 64; ++i) {
-    const bool accepted = accept_ray(t->frame, rays, i, 0);
+    const bool accepted = accept_rays(t->frame, rays, i, 0, 1u) != 0;
     EXPECT_EQ(accepted, (accept_row(t->frame, 0, i % 8, i / 8, 1u) & 1u) != 0);
     count += accepted;
   }
   EXPECT_EQ(count, 19);  // round(0.3 * 64)
+}
+
+// Rays of one batch, asked one by one and up to 32 at once, with the last of them at the end of the batch.
+TEST(ShadeAccept, RaysTogetherAnswerAsEachAlone) {
+  TestRandom random(7);
+  for (const MaterialTransparency kind : {MaterialTransparency::kMask, MaterialTransparency::kScreenDoor}) {
+    auto t = quad_frame(material_of_kind(kind, 0.8f), [&](SceneData& scene, Material& m) {
+      m.map_opacity = add_texture(scene, 64, 64, [&](int, int) { return noise_texel(random); });
+    });
+    RayBatch rays;
+    for (uint32_t i = 0; i < 1003; ++i) add_ray(rays, {random.uniform(-1, 1), random.uniform(-1, 1), 1}, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -1}, pack_pixel(static_cast<uint32_t>(random.below(128)), static_cast<uint32_t>(random.below(128))));
+    int accepted = 0, refused = 0;
+    for (const Isa isa : supported_isas()) {
+      t->frame.isa = isa;
+      for (int first = 0; first < rays.count; first += 29) {
+        const int n = std::min(32, rays.count - first);
+        const uint32_t wanted = random.bits() & ~0u >> (32 - n);
+        uint32_t alone = 0;
+        for (int i = 0; i < n; ++i)
+          if ((wanted >> i & 1) != 0) alone |= accept_rays(t->frame, rays, first + i, 1, 1u) << i;
+        ASSERT_EQ(accept_rays(t->frame, rays, first, 1, wanted), alone) << isa_name(isa) << " from ray " << first;
+        accepted += std::popcount(alone), refused += std::popcount(wanted & ~alone);
+      }
+    }
+    EXPECT_GT(accepted, 100);
+    EXPECT_GT(refused, 100);
+  }
 }
 
 TEST(FrameTransparency, SettingsOverrideMaterials) {

@@ -113,7 +113,7 @@ TracedScene::TracedScene(const Scene& traced, const Camera& camera, const Settin
   traced_settings.shading = Shading::kPhong;
   frame = make_frame(data, camera, traced_settings, make_plan(data, find_scene_use(data), traced_settings), parallel);
   frame.plan.bounces = true;  // every surface mirrors here
-  frame.material_flags = flags.data(), frame.accept_ray = nullptr;
+  frame.material_flags = flags.data(), frame.accept_rays = nullptr;
   std::vector<double> ms;
   for (int i = 0; i < builds; ++i) {
     const Stopwatch watch;

@@ -41,8 +41,9 @@ struct Frame;
 // For primary rays of pixels in one row: x0 .. x0 + count - 1 (count <= 32) at row y, all through one place (frame/samples.h),
 // against one primitive. Bit i: pixel x0 + i accepts. Only bits set in `candidates` need be computed.
 using AcceptRowFn = uint32_t (*)(const Frame&, uint32_t primitive, int x0, int y, uint32_t candidates, int place);
-// For one ray of a batch against one primitive that it hits.
-using AcceptRayFn = bool (*)(const Frame&, const RayBatch&, int ray, uint32_t primitive);
+// For up to 32 rays of a batch, from `first` on, against one primitive that they hit. Bit i: ray first + i accepts. Only bits set in
+// `candidates` are computed, the others are 0.
+using AcceptRaysFn = uint32_t (*)(const Frame&, const RayBatch&, int first, uint32_t primitive, uint32_t candidates);
 
 inline uint32_t flags_of(const Frame& frame, uint32_t primitive);
 
@@ -58,7 +59,7 @@ struct Frame {
   Parallel* parallel = nullptr;
   const uint32_t* material_flags = nullptr;  // MaterialFlags by material
   AcceptRowFn accept_row = nullptr;
-  AcceptRayFn accept_ray = nullptr;  // none: no material is masked
+  AcceptRaysFn accept_rays = nullptr;  // none: no material is masked
   Light eye_light;  // the scene's only light, where that one follows the eye
 };
 

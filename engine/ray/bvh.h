@@ -33,7 +33,7 @@ Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t m
               TreeQuality quality = TreeQuality::kFast, bool follows_motion = false, InstanceUse instances = InstanceUse::kAuto);
 
 // For each ray the primitive with the least t in [0, t_max], ties to the lowest id, kNoPrimitive if none. Masked materials ask
-// frame.accept_ray; Settings::culling applies. out: rays.count entries. For this and the next two: a hit must be provably in front
+// frame.accept_rays; Settings::culling applies. out: rays.count entries. For this and the next two: a hit must be provably in front
 // of the origin, in double, so t = 0 is none; a hit at exactly t_max counts. A direction that is zero, NaN or infinite, an origin that
 // is not finite, a t_max that is negative or NaN: miss. Answers depend neither on the tree, nor on the order of the batch, nor on the
 // instruction set; speed does: 16 neighbours that point into one octant go down the tree together. Thread-safe.

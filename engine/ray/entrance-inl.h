@@ -97,7 +97,7 @@ struct Entrance {
   static constexpr int kNodes = 2, kMostEntries = kNodes * kBvhWidth;
   BvhNode node[kNodes];
   int entries = 0;  // children of node[], one after the other
-  TriangleBlock few;
+  TriangleBlock few{};  // whole: lanes without a triangle are read, too
   int triangles = 0;  // of few
 
   HWY_INLINE bool empty() const { return entries + triangles == 0; }

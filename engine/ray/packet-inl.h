@@ -67,9 +67,9 @@ struct PacketTask {
   // The rays that leave a triangle.
   HWY_INLINE uint32_t leaving(uint32_t primitive) const { return to_bits(p.from == i32(primitive)); }
 
-  // The triangles of a leaf that some ray may hit, by their boxes and by where the rays come from.
-  HWY_INLINE uint32_t triangles_ahead(const TriangleBlock& block, uint32_t child, const Beam& beam) const {
-    return leaf_lanes(child) & beam_triangles(block, beam) & ~words_equal(block.primitive, p.all_from);
+  // Of some triangles of a block those that some ray may hit, by their boxes and by where the rays come from.
+  HWY_INLINE uint32_t triangles_ahead(const TriangleBlock& block, uint32_t triangles, const Beam& beam) const {
+    return triangles & beam_triangles(block, beam) & ~words_equal(block.primitive, p.all_from);
   }
 
   // hit_triangle() of some rays with triangle j of a block.
@@ -82,14 +82,7 @@ struct PacketTask {
 
   // Of some rays, those whose hit the surface takes.
   HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) {
-    if (batch.takes_all(primitive)) return rays;
-    uint32_t taken = 0;
-    for (; rays != 0; rays &= rays - 1) {
-      const int i = std::countr_zero(rays);
-      const float origin[3] = {lanes().origin[0][i], lanes().origin[1][i], lanes().origin[2][i]};
-      taken |= static_cast<uint32_t>(batch.accepts(first + i, origin, primitive)) << i;
-    }
-    return taken;
+    return batch.takes_all(primitive) ? rays : batch.accepts_of(first, rays, primitive);
   }
 
  private:
@@ -110,8 +103,7 @@ struct PacketTask {
 };
 
 // All rays of a packet down the tree; Packet is one of the two below. from: what its descend() takes besides.
-template <class Packet, class... From> HWY_INLINE void go_together(Packet& packet, From... from) {
-  const Beam beam = make_beam(packet.p);
+template <class Packet, class... From> HWY_INLINE void go_together(Packet& packet, const Beam& beam, From... from) {
   if (packet.p.mixed_axes == 0) packet.template descend<false>(beam, from...);
   else packet.template descend<true>(beam, from...);
 }
@@ -122,6 +114,9 @@ struct AnyEntry { uint32_t child, rays; };
 
 struct AnyPacket : PacketTask {
   uint32_t alive = 0;  // rays without a hit
+  // The triangle that last stopped some ray, of this packet or one before: where one packet is dark, the next often is by the same.
+  const TriangleBlock* stopper = nullptr;  // the block that it stands in; none yet
+  int stopper_lane = 0;
 
   using PacketTask::PacketTask;
   HWY_INLINE void start(int at) {
@@ -142,7 +137,7 @@ struct AnyPacket : PacketTask {
 
   HWY_INLINE void leaf(AnyEntry entry, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(entry.child)];
-    test(block, triangles_ahead(block, entry.child, beam), entry.rays);
+    test(block, triangles_ahead(block, leaf_lanes(entry.child), beam), entry.rays);
   }
 
   // Some triangles of a block against some rays.
@@ -155,14 +150,23 @@ struct AnyPacket : PacketTask {
       const uint32_t primitive = block.primitive[j];
       maybe &= ~leaving(primitive);
       const uint32_t sure = hits.sure & maybe;
-      if (sure != 0 && batch.takes_all(primitive)) alive &= ~sure, maybe &= ~sure;
+      if (sure != 0) stop(ask(sure, primitive), block, j), maybe &= ~sure;
       if (maybe == 0) continue;
       const ExactLanes exact = this->exact(block, j, maybe);
       uint32_t found = exact.hit;
       if (found != 0) found &= ~bits_less(p.t_max, exact.t);
-      if (found != 0) found = ask(found, primitive);
-      alive &= ~found;
+      if (found != 0) stop(ask(found, primitive), block, j);
     }
+  }
+
+  HWY_INLINE void stop(uint32_t rays, const TriangleBlock& block, int triangle) {
+    if (rays == 0) return;
+    alive &= ~rays;
+    stopper = &block, stopper_lane = triangle;
+  }
+
+  HWY_INLINE void test_stopper() {
+    if (stopper != nullptr) test(*stopper, 1u << stopper_lane, alive);
   }
 
   template <bool kMixed> HWY_INLINE int push(const BvhNode& node, uint32_t rays, const Beam& beam, AnyEntry* stack, int top) {
@@ -263,7 +267,7 @@ struct ClosestPacket : PacketTask {
 
   HWY_INLINE void leaf(uint32_t child, uint32_t rays, const Beam& beam) {
     const TriangleBlock& block = data.blocks[leaf_block(child)];
-    for (uint32_t rest = triangles_ahead(block, child, beam); rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = triangles_ahead(block, leaf_lanes(child), beam); rest != 0; rest &= rest - 1) {
       const int j = std::countr_zero(rest);
       BoundsOnT<F32> t;
       const LaneHits hits = triangle_lanes<SureHits::kOfClosest>(p, block, j, &t);

@@ -29,6 +29,9 @@ namespace HWY_NAMESPACE {
 // A packet goes down the tree together if its rays point into one octant or two neighbouring ones.
 constexpr int kMixedAxes = 1;
 
+// A beam costs as much as so many triangles.
+constexpr int kLeastForBeam = 3;
+
 HWY_INLINE bool coherent(const RayPacket& p) {
   return kLanes > kFewRays && p.mixed_axes <= kMixedAxes && std::popcount(p.valid) > kFewRays;
 }
@@ -52,7 +55,7 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
     packet.start(first);
     if (packet.p.valid == 0) continue;
     if (coherent(packet.p)) {
-      go_together(packet);
+      go_together(packet, make_beam(packet.p));
     } else if (data.instances) {  // which want to know how far each ray came
       packet.alone(0, nullptr, packet.p.valid);
     } else {
@@ -63,6 +66,18 @@ void closest_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& r
     for (int i = 0; i < kLanes && first + i < rays.count; ++i) out[first + i] = packet.best[i];
   }
   streams.finish();
+}
+
+// Whether any triangle stops the rays of a packet, from where their cell enters the tree; nullptr: from the root.
+HWY_INLINE void trace_together(AnyPacket& packet, const Entrance* from) {
+  packet.test_stopper();
+  if (packet.alive == 0) return;
+  const int triangles = from != nullptr ? from->triangles : 0, nodes = from != nullptr ? from->nodes() : 1;
+  const uint32_t few = (1u << triangles) - 1;
+  if (nodes == 0 && triangles < kLeastForBeam) return packet.test(from->few, few, packet.alive);
+  const Beam beam = make_beam(packet.p);
+  if (triangles != 0) packet.test(from->few, packet.triangles_ahead(from->few, few, beam), packet.alive);
+  if (nodes != 0 && packet.alive != 0) go_together(packet, beam, from != nullptr ? from->node : packet.data.nodes.data(), nodes);
 }
 
 void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays, uint32_t* out) {
@@ -77,6 +92,7 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
     const int n = same_cell(rays, first);
     const bool narrow = kLanes > kFewRays && n > kLanes && make_shaft(data, rays, first, n, shaft);
     if (narrow) find_entrance(data, shaft, entrance);
+    packet.stopper = nullptr;  // it may stand in the entrance before
     for (const int end = first + n; first < end; first += kLanes) {
       if (narrow && entrance.empty()) continue;
       packet.start(first);
@@ -86,9 +102,7 @@ void any_kernel(const Frame& frame, const Bvh::Data& data, const RayBatch& rays,
         stream.add(packet);
         continue;
       }
-      if (narrow) packet.test(entrance.few, (1u << entrance.triangles) - 1, packet.p.valid);
-      const int nodes = narrow ? entrance.nodes() : 1;
-      if (nodes != 0 && packet.alive != 0) go_together(packet, narrow ? entrance.node : data.nodes.data(), nodes);
+      trace_together(packet, narrow ? &entrance : nullptr);
       out[first / 32] |= (packet.p.valid & ~packet.alive) << (first % 32);
     }
   }

@@ -6,6 +6,9 @@
 #define SPANRAY_VISITORS_INL_H_
 #endif
 
+#include <bit>
+#include <cstdint>
+
 #include "frame/frame.h"
 #include "ray/bvh_data.h"
 #include "ray/triangle_test.h"
@@ -24,12 +27,23 @@ struct Batch {
   HWY_INLINE bool accepts(int ray, const float* origin, uint32_t primitive) const {
     const SceneData& scene = *frame.scene;
     if (cull_back && !(facing(scene, scene.triangles[primitive], {origin[0], origin[1], origin[2]}) > 0)) return false;
-    if (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
-    return frame.accept_ray(frame, rays, ray, primitive);
+    if (frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
+    return frame.accept_rays(frame, rays, ray, primitive, 1u) != 0;
+  }
+  // The same for rays first + i of bits i.
+  HWY_INLINE uint32_t accepts_of(int first, uint32_t bits, uint32_t primitive) const {
+    const SceneData& scene = *frame.scene;
+    if (cull_back)
+      for (uint32_t rest = bits; rest != 0; rest &= rest - 1) {
+        const size_t i = static_cast<size_t>(first + std::countr_zero(rest));
+        if (!(facing(scene, scene.triangles[primitive], {rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]}) > 0)) bits ^= rest & -rest;
+      }
+    if (bits == 0 || frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return bits;
+    return frame.accept_rays(frame, rays, first, primitive, bits);
   }
   // It takes every hit.
   HWY_INLINE bool takes_all(uint32_t primitive) const {
-    return !cull_back && (frame.accept_ray == nullptr || !(flags_of(frame, primitive) & kMaterialMasked));
+    return !cull_back && (frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked));
   }
 };
 

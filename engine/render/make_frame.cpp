@@ -22,7 +22,7 @@ Frame make_frame(const SceneData& scene, const Camera& camera, const Settings& s
   frame.parallel = &parallel;
   frame.material_flags = plan.material_flags.data();
   frame.accept_row = accept_row;
-  frame.accept_ray = plan.flags.masks ? accept_ray : nullptr;
+  frame.accept_rays = plan.flags.masks ? accept_rays : nullptr;
   if (scene.light_follows_eye) frame.eye_light = default_light(scene, camera);
   return frame;
 }

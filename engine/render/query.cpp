@@ -24,8 +24,8 @@ namespace {
 constexpr double kMostCoordinate = 1e30, kLeastWay = 1e-30;
 
 // accept(hit) with surfaces that rays pass wholly through.
-bool accept_asked(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive) {
-  return (flags_of(frame, primitive) & kMaterialTranslucent) == 0 && accept_ray(frame, rays, ray, primitive);
+uint32_t accept_asked(const Frame& frame, const RayBatch& rays, int first, uint32_t primitive, uint32_t candidates) {
+  return (flags_of(frame, primitive) & kMaterialTranslucent) != 0 ? 0 : accept_rays(frame, rays, first, primitive, candidates);
 }
 
 // What is wrong with a ray, or null.
@@ -127,7 +127,7 @@ struct SceneQuery::Impl {
     one.emplace(1);
     frame = make_frame(data, Camera(), s, make_plan(data, find_scene_use(data), s), *one);
     frame.material_flags = for_rays.data();
-    frame.accept_ray = accept_asked;
+    frame.accept_rays = accept_asked;
     Parallel all(0);
     bvh = build_bvh(data, solid.data(), 0, 0, all, TreeQuality::kFast, false, InstanceUse::kNever);  // ray/sweep.h knows one level
   }

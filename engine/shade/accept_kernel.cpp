@@ -64,28 +64,38 @@ HWY_INLINE Mask accept_lanes(const Frame& frame, const HitLanes& hits, const Mat
   return first_lanes(kLanes);
 }
 
-}  // namespace
-
-// Which of up to 32 rays accept one primitive.
-// Source:   alpha test: opacity >= 1/2. Screen-door: ordered dither, Bayer 1973.
-// Contract: a function of ray (through its pixel for primary rays), primitive and frame alone, so both engines agree.
-uint32_t accept(const Frame& frame, const RayBatch* rays, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
-  const Material& material = frame.scene->materials[material_of(frame.scene->triangles[primitive])];
-  HitLanes hits{rays, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive, rays != nullptr ? rays->place : place};
-  if (rays != nullptr) {
-    hits.ray = i32(x0);
-    hits.pixel = i32(rays->pixel[static_cast<size_t>(x0)]);
-    return to_bits(accept_lanes(frame, hits, material)) & candidates & 1u;
-  }
+// Of 32 candidates those that accept, a vector after the other. set(first, wanted, hits): the rays of kLanes candidates from `first` on.
+template <class SetRays>
+HWY_INLINE uint32_t accept_in_vectors(const Frame& frame, HitLanes& hits, uint32_t candidates, const SetRays& set) {
+  const Material& material = frame.scene->materials[material_of(frame.scene->triangles[hits.first_primitive])];
   constexpr uint32_t kGroup = static_cast<uint32_t>((1ull << kLanes) - 1);
   uint32_t accepted = 0;
   for (int first = 0; first < 32; first += kLanes) {
     const uint32_t wanted = (candidates >> first) & kGroup;
     if (wanted == 0) continue;
-    hits.pixel = lane_iota(x0 + first) | i32(y << 16);
+    set(first, wanted, hits);
     accepted |= (to_bits(accept_lanes(frame, hits, material)) & wanted) << first;
   }
   return accepted;
+}
+
+}  // namespace
+
+// Which of up to 32 rays accept one primitive.
+// Source:   alpha test: opacity >= 1/2. Screen-door: ordered dither, Bayer 1973.
+// Contract: a function of ray (through its pixel for primary rays), primitive and frame alone, so both engines agree.
+uint32_t accept_row_entry(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
+  HitLanes row{nullptr, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive, place};
+  return accept_in_vectors(frame, row, candidates, [=](int first, uint32_t, HitLanes& hits) HWY_ATTR { hits.pixel = lane_iota(x0 + first) | i32(y << 16); });
+}
+
+uint32_t accept_rays_entry(const Frame& frame, const RayBatch& rays, int first_ray, uint32_t primitive, uint32_t candidates) {
+  HitLanes some{&rays, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive, rays.place};
+  return accept_in_vectors(frame, some, candidates, [&](int first, uint32_t wanted, HitLanes& hits) HWY_ATTR {
+    // Other lanes repeat a ray: there may be none at their place.
+    hits.ray = select(mask_from_bits(wanted), lane_iota(first_ray + first), i32(first_ray + first + __builtin_ctz(wanted)));
+    hits.pixel = gather(rays.pixel.data(), hits.ray);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -95,14 +105,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace spanray {
 
-const AcceptFn kAccept[kIsaCount] = SPANRAY_KERNEL_TABLE(accept);
+const AcceptRowFn kAcceptRow[kIsaCount] = SPANRAY_KERNEL_TABLE(accept_row_entry);
+const AcceptRaysFn kAcceptRays[kIsaCount] = SPANRAY_KERNEL_TABLE(accept_rays_entry);
 
 uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
-  return kAccept[isa_index(frame.isa)](frame, nullptr, primitive, x0, y, candidates, place);
+  return kAcceptRow[isa_index(frame.isa)](frame, primitive, x0, y, candidates, place);
 }
 
-bool accept_ray(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive) {
-  return kAccept[isa_index(frame.isa)](frame, &rays, primitive, ray, 0, 1u, 0) != 0;
+uint32_t accept_rays(const Frame& frame, const RayBatch& rays, int first, uint32_t primitive, uint32_t candidates) {
+  return kAcceptRays[isa_index(frame.isa)](frame, rays, first, primitive, candidates);
 }
 
 }  // namespace spanray

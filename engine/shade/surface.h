@@ -60,6 +60,6 @@ void resolve_surfaces(const Frame& frame, const HitBatch& hits, SurfaceBatch& ou
 
 // accept(hit) for both engines: see frame/frame.h.
 uint32_t accept_row(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place = 0);
-bool accept_ray(const Frame& frame, const RayBatch& rays, int ray, uint32_t primitive);
+uint32_t accept_rays(const Frame& frame, const RayBatch& rays, int first, uint32_t primitive, uint32_t candidates);
 
 }  // namespace spanray

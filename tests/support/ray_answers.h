@@ -12,6 +12,19 @@
 
 namespace spanray {
 
+// AcceptRaysFn by accepts(pixel), of each ray that is asked for.
+template <class Accepts> uint32_t accept_each(const RayBatch& rays, int first, uint32_t candidates, const Accepts& accepts) {
+  uint32_t accepted = 0;
+  for (uint32_t i = 0; i < 32; ++i)
+    if ((candidates >> i & 1) != 0 && accepts(rays.pixel[static_cast<size_t>(first) + i])) accepted |= 1u << i;
+  return accepted;
+}
+
+// An AcceptRaysFn: of each triangle the pixels of one parity.
+inline uint32_t accept_every_other(const Frame&, const RayBatch& rays, int first, uint32_t primitive, uint32_t candidates) {
+  return accept_each(rays, first, candidates, [primitive](uint32_t pixel) { return (pixel + primitive) % 2 == 0; });
+}
+
 // Adds a ray that leaves primitive `from`. Returns its number.
 inline int add_ray(RayBatch& rays, const glm::dvec3& o, const glm::dvec3& d, float t_max = std::numeric_limits<float>::infinity(),
                    uint32_t from = kNoPrimitive) {
