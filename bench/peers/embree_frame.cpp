@@ -7,6 +7,7 @@
 #include "ray_agreement.h"
 #include "render/frame_stats.h"
 #include "render/make_frame.h"
+#include "render/tile_light.h"
 #include "render/tile_output.h"
 
 namespace spanray::peers {
@@ -54,7 +55,7 @@ const uint32_t* EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& su
   rays.count = 0;
   tile.surface_of_ray.clear();
   make_shadow_rays(frame_, surfaces, light, rays, tile.surface_of_ray);
-  const size_t words = static_cast<size_t>(rays.count) / 32 + 1;
+  const size_t words = static_cast<size_t>(rays.count) / 32 + 2;
   tile.occluded.resize(words);
   tile.lit.assign(static_cast<size_t>(surfaces.count) / 32 + 2, 0);
   tile.clock.enter(TileStage::kShadowRays);
@@ -66,10 +67,7 @@ const uint32_t* EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& su
     trace_any(frame_, bvh_, rays, ours);
     w.errors.shadow += different_bits(rays.count, ours, tile.occluded.data());
   }
-  for (int i = 0; i < rays.count; ++i) {
-    const uint32_t seen = ~(tile.occluded[static_cast<size_t>(i) / 32] >> (i % 32)) & 1u, surface = tile.surface_of_ray[i];
-    tile.lit[surface / 32] |= seen << (surface % 32);
-  }
+  mark_lit(tile.surface_of_ray.data(), tile.occluded.data(), rays.count, tile.lit.data());
   tile.clock.enter(TileStage::kShade);
   return tile.lit.data();
 }

@@ -12,17 +12,6 @@ uint32_t word_at(const uint32_t* words, int at) {
   return static_cast<uint32_t>((w[0] | uint64_t{w[1]} << 32) >> (at % 32));
 }
 
-// The bits of the rays that nothing stops, to those of their surfaces. Most rays belong to neighbours: runs of bits.
-void mark_lit(const uint32_t* surface_of_ray, const uint32_t* occluded, int rays, uint32_t* lit) {
-  for (int i = 0, run; i < rays; i += run) {
-    const uint32_t first = surface_of_ray[i];
-    const auto is_run = [&](int n) { return i + n <= rays && surface_of_ray[i + n - 1] - first == static_cast<uint32_t>(n) - 1; };
-    run = is_run(32) ? 32 : is_run(8) ? 8 : 1;
-    const uint64_t seen = ~word_at(occluded, i) & ~uint32_t{0} >> (32 - run), at = seen << (first % 32);
-    lit[first / 32] |= static_cast<uint32_t>(at), lit[first / 32 + 1] |= static_cast<uint32_t>(at >> 32);
-  }
-}
-
 // One bit a surface: set where the light is seen. Surfaces that the light cannot reach get no ray and no bit.
 const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch& surfaces, int light) {
   const TileStage stage = w.clock.enter(TileStage::kShadowRays);
@@ -30,7 +19,7 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
   w.surface_of_ray.clear();
   make_shadow_rays(job.frame, surfaces, light, w.shadow_rays, w.surface_of_ray);
   const int rays = w.shadow_rays.count;
-  w.occluded.assign((static_cast<size_t>(rays) + 31) / 32 + 1, 0);
+  w.occluded.assign((static_cast<size_t>(rays) + 31) / 32 + 1, 0);  // mark_lit reads one word past the last, too
   w.lit.assign((static_cast<size_t>(surfaces.count) + 31) / 32 + 1, 0);  // kernels may read one word past the last
   if (rays > 0) trace_any(job.frame, *job.opaque, w.shadow_rays, w.occluded.data());
   w.counts.rays_shadow += static_cast<uint64_t>(rays);
@@ -40,6 +29,17 @@ const uint32_t* find_lit(const FrameJob& job, TileWorker& w, const SurfaceBatch&
 }
 
 }  // namespace
+
+// Most rays belong to neighbours: runs of bits.
+void mark_lit(const uint32_t* surface_of_ray, const uint32_t* occluded, int rays, uint32_t* lit) {
+  for (int i = 0, run; i < rays; i += run) {
+    const uint32_t first = surface_of_ray[i];
+    const auto is_run = [&](int n) { return i + n <= rays && surface_of_ray[i + n - 1] - first == static_cast<uint32_t>(n) - 1; };
+    run = is_run(32) ? 32 : is_run(8) ? 8 : 1;
+    const uint64_t seen = ~word_at(occluded, i) & ~uint32_t{0} >> (32 - run), at = seen << (first % 32);
+    lit[first / 32] |= static_cast<uint32_t>(at), lit[first / 32 + 1] |= static_cast<uint32_t>(at >> 32);
+  }
+}
 
 void light_surfaces(const FrameJob& job, TileWorker& w, SurfaceBatch& surfaces, const HitBatch& hits) {
   const TileStage stage = w.clock.enter(TileStage::kShade);
