@@ -133,7 +133,10 @@ TEST(ShadeAccept, RaysTogetherAnswerAsEachAlone) {
       m.map_opacity = add_texture(scene, 64, 64, [&](int, int) { return noise_texel(random); });
     });
     RayBatch rays;
-    for (uint32_t i = 0; i < 1003; ++i) add_ray(rays, {random.uniform(-1, 1), random.uniform(-1, 1), 1}, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -1}, pack_pixel(static_cast<uint32_t>(random.below(128)), static_cast<uint32_t>(random.below(128))));
+    for (int i = 0; i < 1003; ++i) {
+      const glm::dvec3 origin(random.uniform(-1, 1), random.uniform(-1, 1), 1), direction(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -1);
+      add_ray(rays, origin, direction, pack_pixel(static_cast<uint32_t>(random.below(128)), static_cast<uint32_t>(random.below(128))));
+    }
     int accepted = 0, refused = 0;
     for (const Isa isa : supported_isas()) {
       t->frame.isa = isa;
