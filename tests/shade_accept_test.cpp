@@ -134,7 +134,8 @@ TEST(ShadeAccept, RaysTogetherAnswerAsEachAlone) {
     });
     RayBatch rays;
     for (int i = 0; i < 1003; ++i) {
-      const glm::dvec3 origin(random.uniform(-1, 1), random.uniform(-1, 1), 1), direction(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -1);
+      const glm::dvec3 origin(random.uniform(-1, 1), random.uniform(-1, 1), 1);
+      const glm::dvec3 direction(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -1);
       add_ray(rays, origin, direction, pack_pixel(static_cast<uint32_t>(random.below(128)), static_cast<uint32_t>(random.below(128))));
     }
     int accepted = 0, refused = 0;

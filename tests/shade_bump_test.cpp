@@ -139,8 +139,9 @@ TEST(ShadeBump, RowsOfHeightsChangeNoBit) {
   auto t = full_frame(random_surface_scene(80, 60), random_camera(random, 3), 512, 512);
   SceneData& scene = t->scene;
   const auto noise = [&](int, int) { return noise_texel(random); };
-  const int32_t use[] = {add_texture(scene, 32, 8, noise), add_texture(scene, 2, 64, noise), add_texture(scene, 1, 1, noise), add_texture(scene, 16, 16, noise),
-                         add_texture(scene, 16, 16, noise)};
+  int32_t use[5];
+  const int size[5][2] = {{32, 8}, {2, 64}, {1, 1}, {16, 16}, {16, 16}};
+  for (int k = 0; k < 5; ++k) use[k] = add_texture(scene, size[k][0], size[k][1], noise);
   const auto of = [&](int k) -> TextureUse& { return scene.texture_uses[static_cast<size_t>(use[k])]; };
   of(0).channel = 0, of(1).channel = 3, of(2).channel = 1, of(3).channel = 2, of(3).clamp = 1;
   for (int maps = 3; maps <= 5; ++maps) {  // all in rows; some clamped; some by luminance

@@ -57,7 +57,11 @@ TEST(SimdSets, BitsOfMembersEqualBitsOfBytes) {
   for (int round = 0; round < 400; ++round) {
     const int size = round % 34 == 33 ? 32 : round % 34 % 33;
     uint64_t set = 0;
-    while (std::popcount(set) < size) set |= uint64_t{1} << (round % 3 == 0 ? random.below(64) : round % 3 == 1 ? random.below(33) : 63 - random.below(33));
+    const auto place = [&]() -> uint32_t {
+      if (round % 3 == 0) return random.below(64);
+      return round % 3 == 1 ? random.below(33) : 63 - random.below(33);
+    };
+    while (std::popcount(set) < size) set |= uint64_t{1} << place();
     alignas(64) uint8_t bytes[64] = {};
     uint64_t words[4];
     for (uint64_t& word : words) word = random_word(random);

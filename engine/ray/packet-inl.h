@@ -81,9 +81,7 @@ struct PacketTask {
   }
 
   // Of some rays, those whose hit the surface takes.
-  HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) {
-    return batch.takes_all(primitive) ? rays : batch.accepts_of(first, rays, primitive);
-  }
+  HWY_INLINE uint32_t ask(uint32_t rays, uint32_t primitive) const { return batch.accepts_of(first, rays, primitive); }
 
  private:
   HWY_NOINLINE void exact_edge_on(const TriangleBlock& block, int j, ExactLanes& out) {

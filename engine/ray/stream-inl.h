@@ -147,7 +147,8 @@ class AnyStream {
       if (kLanes8 == 1 || n <= kFewRays) alone(entry);
       else if ((entry.child & kLeafBit) != 0) leaf(entry);
       else if (n >= kManyRays) top = push_many(entry, stack, top);
-      else top = kHasPairs ? push_pairs(entry, stack, top) : push(entry, stack, top);
+      else if constexpr (kHasPairs) top = push_pairs(entry, stack, top);
+      else top = push(entry, stack, top);
     }
     const uint64_t found = all_ & ~alive_;
     for (int p = 0; p < packets_; ++p) {
@@ -192,6 +193,7 @@ class AnyStream {
     F32 low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = twice(node.bounds[k]), high[k] = twice(node.bounds[k + 3]);
     const uint32_t used = to_bits(low[0] <= high[0]);
+    static_assert(!kHasPairs || kManyRays % 8 == 0);
     uint64_t meets[kManyRays / 8] = {};
     uint64_t rest = entry.rays;
     for (int w = 0; w < kManyRays / 8 && rest != 0; ++w) {

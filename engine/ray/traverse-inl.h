@@ -71,9 +71,9 @@ HWY_INLINE BoundsOnT<F> bounds_on_t(F edge_u, F edge_v, F edge_w, const F (&t)[3
 // Triangles that might be hit at no more than limit: all that hit_triangle() would accept, and few others. Of these, `sure` are those
 // that it accepts. Any hit: at less than the limit: the ray passes inside by more than the error of the edge functions, every vertex is in
 // front of the origin and nearer than the limit also after rounding (t lies between those of the vertices, whose numbers here are at most
-// 10 roundings too small). Closest hit: with low <= t <= high. kBehind, for any hit: also where vertices are behind the origin or beyond the limit,
-// by bounds on t, which take a division. With 0 < low the hit is in front by far more than hit_triangle() asks for: its errors, of doubles, are
-// less than a millionth of those here.
+// 10 roundings too small). Closest hit: with low <= t <= high. kBehind, for any hit: also where vertices are behind the origin or
+// beyond the limit, by bounds on t, which take a division. With 0 < low the hit is in front by far more than hit_triangle() asks for:
+// its errors, of doubles, are less than a millionth of those here.
 struct Candidates { uint32_t maybe, sure; };
 struct CandidateDistances { alignas(32) float low[kBvhWidth], high[kBvhWidth]; };
 template <class Visitor, bool kEarlyOut = true, bool kBehind = false>
@@ -176,13 +176,17 @@ HWY_INLINE bool visit_candidates(const TriangleBlock& block, uint32_t first, con
                                  Visitor& visitor) {
   uint32_t rest = found.maybe;
   if constexpr (Visitor::kAny) {
-    for (uint32_t bits = found.sure; bits != 0; bits &= bits - 1)
-      if (block.primitive[std::countr_zero(bits)] != ray.from && visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
     rest &= ~words_equal(block.primitive, ray.from);
+    const auto any_of = [&](uint32_t sure) HWY_ATTR {
+      for (uint32_t bits = sure & rest; bits != 0; bits &= bits - 1)
+        if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
+      rest &= ~sure;
+      return false;
+    };
+    if (any_of(found.sure)) return true;
     if (rest == 0) return false;
     CandidateDistances unused;
-    for (uint32_t bits = candidates<Visitor, false, true>(block, ray, visitor.limit, unused).sure & rest; bits != 0; bits &= bits - 1)
-      if (visitor.certain(block.primitive[std::countr_zero(bits)])) return true;
+    if (any_of(candidates<Visitor, false, true>(block, ray, visitor.limit, unused).sure)) return true;
   }
   for (uint32_t bits = rest; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);

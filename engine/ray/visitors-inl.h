@@ -24,26 +24,17 @@ struct Batch {
   bool cull_back;
 
   // Does the surface itself take the hit? Asked only for hits that count.
-  HWY_INLINE bool accepts(int ray, const float* origin, uint32_t primitive) const {
-    const SceneData& scene = *frame.scene;
-    if (cull_back && !(facing(scene, scene.triangles[primitive], {origin[0], origin[1], origin[2]}) > 0)) return false;
-    if (frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return true;
-    return frame.accept_rays(frame, rays, ray, primitive, 1u) != 0;
-  }
+  HWY_INLINE bool accepts(int ray, uint32_t primitive) const { return accepts_of(ray, 1u, primitive) != 0; }
   // The same for rays first + i of bits i.
   HWY_INLINE uint32_t accepts_of(int first, uint32_t bits, uint32_t primitive) const {
     const SceneData& scene = *frame.scene;
-    if (cull_back)
-      for (uint32_t rest = bits; rest != 0; rest &= rest - 1) {
-        const size_t i = static_cast<size_t>(first + std::countr_zero(rest));
-        if (!(facing(scene, scene.triangles[primitive], {rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]}) > 0)) bits ^= rest & -rest;
-      }
-    if (bits == 0 || frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked)) return bits;
+    for (uint32_t rest = cull_back ? bits : 0; rest != 0; rest &= rest - 1) {
+      const size_t i = static_cast<size_t>(first + std::countr_zero(rest));
+      const glm::dvec3 origin(rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]);
+      if (!(facing(scene, scene.triangles[primitive], origin) > 0)) bits ^= rest & -rest;
+    }
+    if (bits == 0 || frame.accept_rays == nullptr || (flags_of(frame, primitive) & kMaterialMasked) == 0) return bits;
     return frame.accept_rays(frame, rays, first, primitive, bits);
-  }
-  // It takes every hit.
-  HWY_INLINE bool takes_all(uint32_t primitive) const {
-    return !cull_back && (frame.accept_rays == nullptr || !(flags_of(frame, primitive) & kMaterialMasked));
   }
 };
 
@@ -62,13 +53,13 @@ struct ClosestVisitor {
 
   // A hit that is surely accepted, with from <= t <= to.
   HWY_INLINE void sure(float from, float to, uint32_t primitive, uint32_t at) {
-    if (batch.accepts(index, ray.origin, primitive))
+    if (batch.accepts(index, primitive))
       best_t = static_cast<double>(to), best = primitive, place = at, low = from, limit = to, known = false;
   }
   HWY_INLINE void hit(double t, uint32_t primitive, uint32_t at) {
     if (!known && t >= static_cast<double>(low) && t <= static_cast<double>(limit)) know();
     if (t > best_t || (t == best_t && primitive > best)) return;
-    if (!batch.accepts(index, ray.origin, primitive)) return;
+    if (!batch.accepts(index, primitive)) return;
     best_t = t, best = primitive, place = at, limit = round_up(t), low = round_down(t), known = true;
   }
   HWY_NOINLINE void know() {
@@ -84,14 +75,11 @@ struct AnyVisitor {
   int index;
   float limit;
   bool found = false;
-  // Every ray that meets the triangle is stopped.
-  HWY_INLINE bool certain(uint32_t primitive) {
-    if (!batch.takes_all(primitive)) return false;
-    return found = true;
-  }
+  // A hit that hit_triangle() surely accepts, before the end of the ray.
+  HWY_INLINE bool certain(uint32_t primitive) { return found = batch.accepts(index, primitive); }
   HWY_INLINE bool takes(const TriangleView&) const { return true; }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (!(t <= ray.t_max) || !batch.accepts(index, ray.origin, primitive)) return false;
+    if (!(t <= ray.t_max) || !batch.accepts(index, primitive)) return false;
     return found = true;
   }
 };
@@ -106,7 +94,7 @@ struct AllVisitor {
   FragmentList& out;
   HWY_INLINE bool takes(const TriangleView& triangle) const { return !owned_only || owns_hit(ray, triangle); }
   HWY_INLINE bool hit(double t, uint32_t primitive) {
-    if (t <= ray.t_max && batch.accepts(index, ray.origin, primitive)) {
+    if (t <= ray.t_max && batch.accepts(index, primitive)) {
       out.pixel.push_back(batch.rays.pixel[index]);
       out.ray.push_back(static_cast<uint32_t>(index));
       out.primitive.push_back(primitive);

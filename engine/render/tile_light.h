@@ -8,7 +8,7 @@ namespace spanray {
 void light_surfaces(const FrameJob& job, TileWorker& worker, SurfaceBatch& surfaces, const HitBatch& hits);
 
 // From the rays of make_shadow_rays to surfaces: sets bit surface_of_ray[i] of `lit` for each ray i whose bit of `occluded` is not set.
-// surface_of_ray: increasing. Reads one word past the last of `occluded` and may write 0 bits to the one after the last of `lit`.
+// surface_of_ray: strictly increasing. Reads one word past the last of `occluded` and may write 0 bits to the one after the last of `lit`.
 void mark_lit(const uint32_t* surface_of_ray, const uint32_t* occluded, int rays, uint32_t* lit);
 
 }  // namespace spanray

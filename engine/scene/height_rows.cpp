@@ -24,12 +24,15 @@ size_t heights_of(const Texture& t) {
 
 HeightRows append_rows(const Texture& t, int32_t channel, SceneData& scene) {
   HeightRows rows{};
+  scene.heights.reserve(scene.heights.size() + heights_of(t));
   for (int level = 0; level < t.levels; ++level) {
     rows.offset[level] = static_cast<int32_t>(scene.heights.size());
     const int width = std::max(1, t.width >> level), height = std::max(1, t.height >> level);
     const Texel* row = scene.texels.data() + t.offset[level];
-    for (int y = 0; y < height; ++y, row += width)
-      for (int x = 0; x < width + kRepeated; ++x) scene.heights.push_back(channel_of(row[x % width], channel));
+    for (int y = 0; y < height; ++y, row += width) {
+      for (int x = 0; x < width; ++x) scene.heights.push_back(channel_of(row[x], channel));
+      for (int x = 0; x < kRepeated; ++x) scene.heights.push_back(channel_of(row[x % width], channel));
+    }
   }
   return rows;
 }

@@ -95,8 +95,8 @@ struct Texture {
 };
 inline constexpr int kTextureStride = sizeof(Texture) / 4;
 
-// The height map of a texture use by its one channel, each row followed by its first two heights: three neighbours, around the end, too, are
-// one load. A copy, made by make_height_rows() (scene/height_rows.h): no bit of a pixel depends on whether it is there.
+// The height map of a texture use by its one channel, each row followed by its first two heights: three neighbours, around the
+// end, too, are one load. A copy, made by make_height_rows() (scene/height_rows.h): no bit of a pixel depends on whether it is there.
 struct HeightRows {
   int32_t offset[kMaxMipLevels + 1];  // first height of each level in SceneData::heights; -1: there are none
 };

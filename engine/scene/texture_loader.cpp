@@ -145,7 +145,7 @@ int32_t TextureLoader::use(MtlMap slot, const MtlTexture& texture, const std::st
   TextureUse use = texture.use;
   use.texture = loaded.texture;
   if (slot == MtlMap::kD && use.channel < 0 && loaded.has_alpha) use.channel = 3;
-  // The luminance of gray is each of its channels: one is read faster than three.
+  // The luminance of gray is each of its channels: height maps of one are kept in rows (scene/height_rows.h).
   if (!is_color(slot) && loaded.gray && (use.channel < 0 || use.channel == 4)) use.channel = 1;
   scene_.texture_uses.push_back(use);
   return static_cast<int32_t>(scene_.texture_uses.size() - 1);

@@ -86,7 +86,9 @@ HWY_INLINE uint32_t accept_in_vectors(const Frame& frame, HitLanes& hits, uint32
 // Contract: a function of ray (through its pixel for primary rays), primitive and frame alone, so both engines agree.
 uint32_t accept_row_entry(const Frame& frame, uint32_t primitive, int x0, int y, uint32_t candidates, int place) {
   HitLanes row{nullptr, i32(0), i32(0), i32(primitive), first_lanes(kLanes), true, primitive, place};
-  return accept_in_vectors(frame, row, candidates, [=](int first, uint32_t, HitLanes& hits) HWY_ATTR { hits.pixel = lane_iota(x0 + first) | i32(y << 16); });
+  return accept_in_vectors(frame, row, candidates, [=](int first, uint32_t, HitLanes& hits) HWY_ATTR {
+    hits.pixel = lane_iota(x0 + first) | i32(y << 16);
+  });
 }
 
 uint32_t accept_rays_entry(const Frame& frame, const RayBatch& rays, int first_ray, uint32_t primitive, uint32_t candidates) {

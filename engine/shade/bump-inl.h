@@ -49,11 +49,13 @@ HWY_INLINE bool has_height_rows(const SceneData& scene, const UseLanes& use) {
   return all((first > i32(-1)) | !use.active);
 }
 
-HWY_INLINE HeightLanes read_rows(const SceneData& scene, const UseLanes& use, I32 level, I32 stride, I32 column, const Neighbours<3>& row) {
+// x: the first column.
+HWY_INLINE HeightLanes read_rows(const SceneData& scene, const UseLanes& use, I32 level, I32 width, I32 x, const Neighbours<3>& row) {
   const uint32_t* const offsets = reinterpret_cast<const uint32_t*>(scene.height_rows.data());
   I32 base;
   if (kLanes == kHeightRowsStride && use.rows.uniform) base = lookup(offsets + use.rows.first, level);
   else base = gather(offsets, use.rows.offset + level);
+  const I32 column = min_unsigned(x, width - i32(1)), stride = width + i32(2);
   HeightLanes r;
   for (int j = 0; j < 3; ++j) {
     const I32 index = base + row.texel[j] * stride + column;
@@ -64,13 +66,15 @@ HWY_INLINE HeightLanes read_rows(const SceneData& scene, const UseLanes& use, I3
   return r;
 }
 
-HWY_INLINE HeightLanes read_texels(const SceneData& scene, const UseLanes& use, const LevelPlace& p, const Neighbours<3>& column,
-                                   const Neighbours<3>& row) {
+HWY_INLINE HeightLanes read_texels(const SceneData& scene, const UseLanes& use, I32 level, I32 width, I32 x, const Neighbours<3>& row) {
+  const uint32_t* const words = reinterpret_cast<const uint32_t*>(scene.texels.data());
+  const I32 base = first_texel(scene, use, level);
+  const Neighbours<3> column = neighbours<3>(x, width, use);
   HeightLanes r;
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {
       RawSample raw;
-      read_texel<4>(reinterpret_cast<const uint32_t*>(scene.texels.data()), p.base + row.texel[j] * p.width + column.texel[i], raw.c);
+      read_texel<4>(words, base + row.texel[j] * width + column.texel[i], raw.c);
       r.h[j][i] = choose_channel(scene, use, raw);
     }
   return r;
@@ -82,8 +86,10 @@ HWY_INLINE HeightLanes read_texels(const SceneData& scene, const UseLanes& use, 
   const LevelPlace p = place_on_level(scene, use, level);
   const I32 byte = i32(255), half = i32(128);
   const I32 x = p.x - i32(256), y = p.y - i32(256), fx = x & byte, fy = y & byte;  // half a texel for the center, half to the first sample
-  const Neighbours<3> column = neighbours<3>(shift_right<8>(x), p.width, use), row = neighbours<3>(shift_right<8>(y), p.height, use);
-  const HeightLanes read = in_rows ? read_rows(scene, use, level, p.width + i32(2), column.texel[0], row) : read_texels(scene, use, p, column, row);
+  const I32 first_column = shift_right<8>(x);
+  const Neighbours<3> row = neighbours<3>(shift_right<8>(y), p.height, use);
+  const HeightLanes read = in_rows ? read_rows(scene, use, level, p.width, first_column, row)
+                                   : read_texels(scene, use, level, p.width, first_column, row);
   const auto& h = read.h;
   const F32 step = f32(0x1p-8f);
   const auto blend = [](F32 f, F32 a, F32 b) HWY_ATTR { return mul_add(f, b - a, a); };

@@ -142,14 +142,15 @@ class DirectShader {
  public:
   DirectShader(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& memory, float* const radiance[3])
       : frame_(frame), hits_(hits), radiance_(radiance),
-        carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())), stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
+        carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())),
+        stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
 
   DirectCounts shade() {
     static_assert(kPlaneHits % (kTogether * kLanes) == 0);
     for (int from = 0; from < hits_.count; from += kTogether * kLanes) {
       if (from % kPlaneHits == 0) set_up(from);
       find_points(from);
-      if (reads_textures(frame_))
+      if (frame_.plan.textures)
         for (int k = 0; k < vectors_; ++k) find_sample(frame_, textures_, shaded_[k]);
       for (int k = 0; k < vectors_; ++k) add_material(frame_, textures_, shaded_[k]);
       add_lights();

@@ -30,8 +30,8 @@ HWY_INLINE uint64_t set_of_bit(const uint8_t* bytes, int b) {
   return set;
 }
 
-// bits: eight of each member of a set, lowest member first, eight members a word. Returns the members that have bit b. There are no more than
-// 8 * kWords; bits beyond the last one do not matter.
+// bits: eight of each member of a set, lowest member first, eight members a word. Returns the members that have bit b. There are no
+// more than 8 * kWords; bits beyond the last one do not matter.
 template <int kWords> HWY_INLINE uint64_t members_with(const uint64_t (&bits)[kWords], int b, uint64_t set) {
   uint64_t chosen = 0;  // bit i: member i
 #if HWY_TARGET == HWY_AVX3
