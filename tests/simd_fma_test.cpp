@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/every_isa.h"
 #include "support/hard_floats.h"
 #include "support/random.h"
 #undef HWY_TARGET_INCLUDE
@@ -33,14 +34,6 @@ namespace {
 
 using FmaFn = void (*)(bool, const float*, const float*, const float*, float*, size_t);
 const FmaFn kFma[kIsaCount] = SPANRAY_KERNEL_TABLE(fma_kernel);
-
-template <class Body> void on_every_isa(const Body& body) {
-  for (int isa = 0; isa < kIsaCount; ++isa)
-    if (isa_supported(static_cast<Isa>(isa + 1))) {
-      SCOPED_TRACE(isa_name(static_cast<Isa>(isa + 1)));
-      body(isa);
-    }
-}
 
 struct Triples {
   std::vector<float> a, b, c;

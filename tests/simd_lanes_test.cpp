@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "support/every_isa.h"
 #include "support/hard_floats.h"
 #include "support/random.h"
 #undef HWY_TARGET_INCLUDE
@@ -119,14 +120,6 @@ const IntegerFn kInteger[kIsaCount] = SPANRAY_KERNEL_TABLE(integer_kernel);
 const auto kMask = std::array<void (*)(uint32_t, uint32_t, int, uint32_t*), kIsaCount> SPANRAY_KERNEL_TABLE(mask_kernel);
 const auto kGather = std::array<void (*)(const float*, const int32_t*, const uint32_t*, const int32_t*, uint32_t*), kIsaCount>
     SPANRAY_KERNEL_TABLE(gather_kernel);
-
-template <class Body> void on_every_isa(const Body& body) {
-  for (int isa = 0; isa < kIsaCount; ++isa)
-    if (isa_supported(static_cast<Isa>(isa + 1))) {
-      SCOPED_TRACE(isa_name(static_cast<Isa>(isa + 1)));
-      body(isa);
-    }
-}
 
 uint32_t bits(float f) { return std::bit_cast<uint32_t>(f); }
 uint32_t word(int64_t x) { return static_cast<uint32_t>(x); }

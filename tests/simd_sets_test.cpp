@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "support/every_isa.h"
 #include "support/random.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd_sets_test.cpp"
@@ -36,14 +37,6 @@ using SetsFn = void (*)(const uint8_t*, const uint64_t (&)[4], uint64_t, uint64_
 const SetsFn kSets[kIsaCount] = SPANRAY_KERNEL_TABLE(sets_kernel);
 using PairsFn = bool (*)(const float*, float, float, float*, float*);
 const PairsFn kPairs[kIsaCount] = SPANRAY_KERNEL_TABLE(pairs_kernel);
-
-template <class Body> void on_every_isa(const Body& body) {
-  for (int isa = 0; isa < kIsaCount; ++isa)
-    if (isa_supported(static_cast<Isa>(isa + 1))) {
-      SCOPED_TRACE(isa_name(static_cast<Isa>(isa + 1)));
-      body(isa);
-    }
-}
 
 uint64_t random_word(TestRandom& random) {
   uint64_t word = 0;

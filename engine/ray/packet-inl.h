@@ -147,12 +147,11 @@ struct AnyPacket : PacketTask {
       if (maybe == 0) continue;
       const uint32_t primitive = block.primitive[j];
       maybe &= ~leaving(primitive);
-      const uint32_t sure = hits.sure & maybe;
-      if (sure != 0) stop(ask(sure, primitive), block, j), maybe &= ~sure;
-      if (maybe == 0) continue;
-      const ExactLanes exact = this->exact(block, j, maybe);
-      uint32_t found = exact.hit;
-      if (found != 0) found &= ~bits_less(p.t_max, exact.t);
+      uint32_t found = hits.sure & maybe;
+      if (const uint32_t unsure = maybe & ~found; unsure != 0) {
+        const ExactLanes exact = this->exact(block, j, unsure);
+        if (exact.hit != 0) found |= exact.hit & ~bits_less(p.t_max, exact.t);
+      }
       if (found != 0) stop(ask(found, primitive), block, j);
     }
   }

@@ -52,9 +52,7 @@ HWY_INLINE bool has_height_rows(const SceneData& scene, const UseLanes& use) {
 // x: the first column.
 HWY_INLINE HeightLanes read_rows(const SceneData& scene, const UseLanes& use, I32 level, I32 width, I32 x, const Neighbours<3>& row) {
   const uint32_t* const offsets = reinterpret_cast<const uint32_t*>(scene.height_rows.data());
-  I32 base;
-  if (kLanes == kHeightRowsStride && use.rows.uniform) base = lookup(offsets + use.rows.first, level);
-  else base = gather(offsets, use.rows.offset + level);
+  const I32 base = use.rows.uniform ? word_of_level(offsets + use.rows.first, level) : gather(offsets, use.rows.offset + level);
   const I32 column = min_unsigned(x, width - i32(1)), stride = width + i32(2);
   HeightLanes r;
   for (int j = 0; j < 3; ++j) {

@@ -70,10 +70,8 @@ HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
 
 // Where the texture of most maps is read, before any is.
 HWY_INLINE void find_sample(const Frame& frame, PlainTextures& plain, Shaded& s) {
-  const Materials g = materials_of(frame, plain, s);
   s.sample.use = -1;
-  if (const PlainTexture* texture = plain_texture(g, kDiffuseSlot))
-    find_plain_sample(*texture, s.uv, s.valid, frame.settings.filter, s.sample);
+  find_shared_sample(materials_of(frame, plain, s), s.uv, kDiffuseSlot);
 }
 
 HWY_INLINE void add_material(const Frame& frame, PlainTextures& plain, Shaded& s) {

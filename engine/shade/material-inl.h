@@ -30,29 +30,21 @@ template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials
   visit(use, sample<kChannels>(scene, use, g.frame.settings.filter));
 }
 
-// The use of this kind that all lanes have, if it may be that of a plain texture; else -1.
-HWY_INLINE int32_t shared_use(const Materials& g, const MapSlot& slot) {
-  if (g.plain == nullptr || !g.material.uniform || (g.frame.plan.maps & slot.bit) == 0) return -1;
-  return g.frame.settings.filter == Filter::kNearest ? -1 : uniform_map(g, slot.word);
-}
-
-// The texture of this kind if it is plain, or nullptr.
-HWY_INLINE const PlainTexture* plain_texture(const Materials& g, const MapSlot& slot) {
-  const int32_t use = shared_use(g, slot);
-  if (use < 0) return nullptr;
+// Finds in *g.sample where the map of this kind is read, if all lanes have one and its texture is plain; it may be there already.
+HWY_INLINE bool find_shared_sample(const Materials& g, const UvLanes& uv, const MapSlot& slot) {
+  const Filter filter = g.frame.settings.filter;
+  if (g.plain == nullptr || !g.material.uniform || (g.frame.plan.maps & slot.bit) == 0 || filter == Filter::kNearest) return false;
+  const int32_t use = uniform_map(g, slot.word);
+  if (use < 0 || g.sample->use == use) return use >= 0;
   const PlainTexture& texture = g.plain->open(*g.frame.scene, use);
-  return texture.plain ? &texture : nullptr;
+  if (texture.plain) find_plain_sample(texture, uv, g.valid, filter, *g.sample);
+  return texture.plain;
 }
 
 // visit(lanes that have a map of this kind, its color) if there are any.
 template <class Visit>
 HWY_INLINE void sample_color(const Materials& g, const UvLanes& uv, const MapSlot& slot, const Visit& visit) {
-  if (const int32_t use = shared_use(g, slot); use >= 0 && g.sample->use == use)
-    return visit(g.valid, read_plain_sample(*g.frame.scene, *g.sample));
-  if (const PlainTexture* texture = plain_texture(g, slot)) {
-    find_plain_sample(*texture, uv, g.valid, g.frame.settings.filter, *g.sample);
-    return visit(g.valid, read_plain_sample(*g.frame.scene, *g.sample));
-  }
+  if (find_shared_sample(g, uv, slot)) return visit(g.valid, read_plain_sample(*g.frame.scene, *g.sample));
   sample_map<3>(g, uv, slot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
     visit(map.active, color_of(*g.frame.scene, map, raw));
   });

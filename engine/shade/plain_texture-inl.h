@@ -17,13 +17,12 @@ namespace surface_lanes {
 
 // The texture of one use, level by level.
 struct PlainTexture {
-  static constexpr int kLevels = kMaxMipLevels + 1;  // whole vectors
   int32_t use = -1;    // in SceneData::texture_uses; -1: none so far
   bool plain = false;  // else nothing below is set
   int32_t levels = 0;
   float width = 0, height = 0;
-  alignas(64) float steps_x[kLevels], steps_y[kLevels];  // size in 1/256 texels
-  alignas(64) int32_t last_column[kLevels], last_row[kLevels], columns[kLevels], first[kLevels];
+  alignas(64) float steps_x[kLevelWords], steps_y[kLevelWords];  // size in 1/256 texels
+  alignas(64) int32_t last_column[kLevelWords], last_row[kLevelWords], columns[kLevelWords], first[kLevelWords];
 
   // index: of a use, in SceneData::texture_uses.
   void open(const SceneData& scene, int32_t index) {
@@ -34,7 +33,7 @@ struct PlainTexture {
     if (!plain) return;
     const Texture& texture = scene.textures[static_cast<size_t>(u.texture)];
     levels = texture.levels, width = static_cast<float>(texture.width), height = static_cast<float>(texture.height);
-    for (int i = 0; i < kLevels; i += kLanes) {
+    for (int i = 0; i < kLevelWords; i += kLanes) {
       const auto size = [&](int32_t of, float* steps, int32_t* last) HWY_ATTR {
         const I32 n = max_(shift_right_by(i32(of), lane_iota(i)), i32(1));
         (to_f32(n) * f32(256.0f)).store(steps + i), (n - i32(1)).store(last + i);
@@ -43,7 +42,7 @@ struct PlainTexture {
       size(texture.height, steps_y, last_row);
       size(texture.width, steps_x, last_column).store(columns + i);
     }
-    std::memcpy(first, texture.offset, sizeof texture.offset), first[kLevels - 1] = 0;
+    std::memcpy(first, texture.offset, sizeof texture.offset), first[kLevelWords - 1] = 0;
   }
 };
 
@@ -56,8 +55,7 @@ struct OneLevel {
 struct ManyLevels {
   I32 level;
   HWY_INLINE I32 operator()(const int32_t* table) const {
-    if constexpr (kLanes == PlainTexture::kLevels) return lookup(reinterpret_cast<const uint32_t*>(table), level);
-    else return gather(table, level);
+    return word_of_level(reinterpret_cast<const uint32_t*>(table), level);
   }
   HWY_INLINE F32 operator()(const float* table) const {
     return float_from_bits((*this)(reinterpret_cast<const int32_t*>(table)));

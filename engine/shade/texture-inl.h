@@ -38,11 +38,18 @@ template <int kChannels> HWY_INLINE void read_texel(const uint32_t* words, I32 i
   if constexpr (kChannels > 3) out[3] = to_f32(shift_right_logical<16>(texel.high));
 }
 
+inline constexpr int kLevelWords = kMaxMipLevels + 1;  // a table by level: whole vectors
+
+// Where a vector has as many lanes, one load and a permutation.
+HWY_INLINE I32 word_of_level(const uint32_t* table, I32 level) {
+  if constexpr (kLanes == kLevelWords) return lookup(table, level);
+  else return gather(table, level);
+}
+
 HWY_INLINE I32 first_texel(const SceneData& scene, const UseLanes& use, I32 level) {
   const uint32_t* textures = reinterpret_cast<const uint32_t*>(scene.textures.data());
-  if constexpr (kLanes == kMaxMipLevels + 1) {  // one load and a permutation; from the word before the table, which exists
-    if (use.texture.uniform) return lookup(textures + use.texture.first + kTextureOffset - 1, level + i32(1));
-  }
+  // From the word before the table, which exists.
+  if (use.texture.uniform) return word_of_level(textures + use.texture.first + kTextureOffset - 1, level + i32(1));
   return gather(textures, use.texture.offset + i32(kTextureOffset) + level);
 }
 

@@ -23,7 +23,7 @@ HWY_INLINE F32 halves(const float& a, const float& b) {
 #else  // nobody asks
 inline constexpr bool kHasPairs = false;
 HWY_INLINE F32 twice(const float* p) { return f32(*p); }
-HWY_INLINE F32 halves(float a, float) { return f32(a); }
+HWY_INLINE F32 halves(const float& a, const float&) { return f32(a); }
 #endif
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
