@@ -30,6 +30,13 @@ template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials
   visit(use, sample<kChannels>(scene, use, g.frame.settings.filter));
 }
 
+// The texture of a map where all lanes have it, or nullptr.
+HWY_INLINE const PlainTexture* shared_texture(const Materials& g, int word) {
+  if (g.plain == nullptr || !g.material.uniform) return nullptr;
+  const int32_t use = uniform_map(g, word);
+  return use < 0 ? nullptr : &g.plain->open(*g.frame.scene, use);
+}
+
 // Finds in *g.sample where the map of this kind is read, if all lanes have one and its texture is plain; it may be there already.
 HWY_INLINE bool find_shared_sample(const Materials& g, const UvLanes& uv, const MapSlot& slot) {
   const Filter filter = g.frame.settings.filter;
@@ -82,7 +89,10 @@ HWY_INLINE V3f bumped_normal(const Materials& g, const UvLanes& uv, V3f normal) 
   const SceneData& scene = *g.frame.scene;
   const I32 heights = material_map(g, SPANRAY_WORD(map_bump)), normals = material_map(g, SPANRAY_WORD(map_normal));
   const Filter filter = g.frame.settings.filter;
-  if (has_use(scene, heights, g.valid))
+  const PlainTexture* const texture = shared_texture(g, SPANRAY_WORD(map_bump));
+  if (texture != nullptr && texture->heights)
+    normal = apply_plain_heights(scene, *texture, g.valid, filter, uv, normal);
+  else if (has_use(scene, heights, g.valid))
     normal = apply_height_map(scene, open_use(scene, heights, g.material.uniform, g.valid, uv), filter, uv, normal);
   if (has_use(scene, normals, g.valid))
     normal = apply_normal_map(scene, open_use(scene, normals, g.material.uniform, g.valid, uv), filter, uv, normal);

@@ -1,5 +1,5 @@
-// Colors of a texture where all lanes read the same one and its use is plain: not scaled, moved, clamped or remapped. So are
-// nearly all. What depends on the level alone stands in tables then, and a vector that sees one level, as most do, broadcasts it.
+// Colors and heights of a texture where all lanes read the same one and its use is plain: not scaled, moved, clamped or remapped. So
+// are nearly all. What depends on the level alone stands in tables then, and a vector that sees one level, as most do, broadcasts it.
 // Include inside a *_kernel.cpp (simd/dispatch.h), after the project headers.
 #if defined(SPANRAY_PLAIN_TEXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_PLAIN_TEXTURE_INL_H_
@@ -17,20 +17,24 @@ namespace surface_lanes {
 
 // The texture of one use, level by level.
 struct PlainTexture {
-  int32_t use = -1;    // in SceneData::texture_uses; -1: none so far
-  bool plain = false;  // else nothing below is set
+  int32_t use = -1;      // in SceneData::texture_uses; -1: none so far
+  bool placed = false;   // neither scaled, moved nor clamped; else nothing below is set
+  bool plain = false;    // nor are its values remapped
+  bool heights = false;  // rows of heights can be read (scene/height_rows.h)
+  float slope = 0;       // of heights: unit, gain and multiplier
   int32_t levels = 0;
   float width = 0, height = 0;
   alignas(64) float steps_x[kLevelWords], steps_y[kLevelWords];  // size in 1/256 texels
   alignas(64) int32_t last_column[kLevelWords], last_row[kLevelWords], columns[kLevelWords], first[kLevelWords];
+  alignas(64) int32_t first_height[kLevelWords];
 
   // index: of a use, in SceneData::texture_uses.
   void open(const SceneData& scene, int32_t index) {
     use = index;
     const TextureUse& u = scene.texture_uses[static_cast<size_t>(index)];
-    plain = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f &&
-            u.offset[1] == 0.0f && u.base == 0.0f && u.gain == 1.0f;
-    if (!plain) return;
+    placed = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f && u.offset[1] == 0.0f;
+    plain = placed && u.base == 0.0f && u.gain == 1.0f, heights = false;
+    if (!placed) return;
     const Texture& texture = scene.textures[static_cast<size_t>(u.texture)];
     levels = texture.levels, width = static_cast<float>(texture.width), height = static_cast<float>(texture.height);
     for (int i = 0; i < kLevelWords; i += kLanes) {
@@ -43,6 +47,11 @@ struct PlainTexture {
       size(texture.width, steps_x, last_column).store(columns + i);
     }
     std::memcpy(first, texture.offset, sizeof texture.offset), first[kLevelWords - 1] = 0;
+    if (scene.height_rows.empty()) return;
+    const HeightRows& rows = scene.height_rows[static_cast<size_t>(index)];
+    heights = rows.offset[0] > -1, slope = (u.gain * kRawToUnit) * u.bump_multiplier;
+    static_assert(sizeof rows.offset == sizeof first_height);
+    std::memcpy(first_height, rows.offset, sizeof rows.offset);
   }
 };
 
@@ -64,7 +73,7 @@ struct ManyLevels {
 
 // Those that were read last, by the lower bits of their uses.
 struct PlainTextures {
-  static constexpr int kEntries = 4;
+  static constexpr int kEntries = 8;
   PlainTexture entry[kEntries];
   HWY_INLINE const PlainTexture& open(const SceneData& scene, int32_t use) {
     PlainTexture& texture = entry[use % kEntries];
@@ -85,6 +94,32 @@ template <class At> HWY_INLINE TexelLanes find_plain_texels(const PlainTexture& 
   return {{top + left, top + right, bottom + left, bottom + right}, x & byte, y & byte};
 }
 
+// A point of a texture, and which levels it is read at.
+struct PlainPlace {
+  F32 s, t;
+  I32 level, next, weight;  // of the next one, in 1/256
+  bool blend;               // two levels, else only the first
+};
+
+HWY_INLINE PlainPlace place_of(const PlainTexture& texture, const UvLanes& uv, Mask active, Filter filter) {
+  PlainPlace p;
+  p.s = fraction(uv.u), p.t = f32(1.0f) - fraction(uv.v);
+  const I32 level_256 = level_of_detail(uv, f32(texture.width), f32(texture.height), i32(texture.levels));
+  const bool trilinear = filter == Filter::kTrilinear;
+  p.level = shift_right<8>(trilinear ? level_256 : level_256 + i32(128));
+  p.next = min_(p.level + i32(1), i32(texture.levels - 1));
+  p.weight = level_256 & i32(255);
+  p.blend = trilinear && any(active & (p.weight != i32(0)));
+  return p;
+}
+
+// visit(tables at the level, tables at the next one).
+template <class Visit> HWY_INLINE void with_tables(const PlainPlace& p, const Visit& visit) {
+  const int32_t first = first_lane(p.level);
+  if (all(p.level == i32(first))) visit(OneLevel{first}, OneLevel{first_lane(p.next)});
+  else visit(ManyLevels{p.level}, ManyLevels{p.next});
+}
+
 // Where a sample of a plain texture reads.
 struct PlainSample {
   int32_t use = -1;    // of that texture
@@ -97,20 +132,12 @@ struct PlainSample {
 //           Filter::kNearest.
 HWY_INLINE void find_plain_sample(const PlainTexture& texture, const UvLanes& uv, Mask active, Filter filter,
                                   PlainSample& sample) {
-  const F32 s = fraction(uv.u), t = f32(1.0f) - fraction(uv.v);
-  const I32 level_256 = level_of_detail(uv, f32(texture.width), f32(texture.height), i32(texture.levels));
-  const bool trilinear = filter == Filter::kTrilinear;
-  const I32 level = shift_right<8>(trilinear ? level_256 : level_256 + i32(128));
-  const I32 next = min_(level + i32(1), i32(texture.levels - 1));
-  sample.weight = level_256 & i32(255);
-  sample.blend = trilinear && any(active & (sample.weight != i32(0)));
-  sample.use = texture.use;
-  const auto find = [&](const auto& at, const auto& at_next) HWY_ATTR {
-    sample.near_level = find_plain_texels(texture, s, t, at);
-    if (sample.blend) sample.far_level = find_plain_texels(texture, s, t, at_next);
-  };
-  if (all(level == i32(first_lane(level)))) find(OneLevel{first_lane(level)}, OneLevel{first_lane(next)});
-  else find(ManyLevels{level}, ManyLevels{next});
+  const PlainPlace place = place_of(texture, uv, active, filter);
+  sample.weight = place.weight, sample.blend = place.blend, sample.use = texture.use;
+  with_tables(place, [&](const auto& at, const auto& at_next) HWY_ATTR {
+    sample.near_level = find_plain_texels(texture, place.s, place.t, at);
+    if (sample.blend) sample.far_level = find_plain_texels(texture, place.s, place.t, at_next);
+  });
 }
 
 // Gain 1 and base 0 would change no bit, nor does max_() with 0: blends of texels are not negative.

@@ -58,10 +58,11 @@ HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at,
 }
 
 // The rest of a stored point.
-void store_material(const Frame& frame, const SurfaceBatch& out, int at, const HitLanes& lanes, const UvLanes& uv) {
+void store_material(const Frame& frame, const SurfaceBatch& out, int at, const HitLanes& lanes, const UvLanes& uv, PlainTextures& plain) {
   const I32 material = I32::load(out.material + at);
   const bool one_material = all(material == i32(first_lane(material)));
-  const Group g{{frame, lanes.valid, record_lanes(material, kMaterialStride, one_material)}, out, at};
+  PlainSample sample;
+  const Group g{{frame, lanes.valid, record_lanes(material, kMaterialStride, one_material), &plain, &sample}, out, at};
   if (frame.plan.bump) put(g, out.normal, clamp_to_horizon(bumped_normal(g, uv, get(g, out.normal)), get(g, out.geometric_normal)));
   MaterialLanes m = constants_of(g);
   if (reads_textures(frame)) apply_maps(g, uv, m);
@@ -87,6 +88,7 @@ HWY_INLINE void store_primary(const Frame& frame, const HitBatch& hits, const Su
 void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
   const bool primary = secondary(hits.rays) == nullptr && !frame.scene->triangles.empty();
   PlaneBlock planes(out.planes, light_fields_of(frame, out.lights));
+  PlainTextures textures;
   int misses = 0;
   for (int at = 0; at < hits.count; at += kLanes) {
     if (primary && at % kPlaneHits == 0) {
@@ -103,7 +105,7 @@ void resolve(const Frame& frame, const HitBatch& hits, SurfaceBatch& out) {
         store_point(frame, out, at, lanes, point_of(frame, lanes, load_rays(frame, lanes), nullptr, [&]() HWY_ATTR {
                       return load_differentials(frame, lanes);
                     }), uv);
-      store_material(frame, out, at, lanes, uv);
+      store_material(frame, out, at, lanes, uv, textures);
       if (out.fields & kSurfaceLift) store_lift(frame, out, at, lanes);
     }
     const int left = hits.count - at;
