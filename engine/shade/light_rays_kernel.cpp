@@ -34,35 +34,38 @@ HWY_INLINE V3 offset_origin(const V3& position, const V3& n, F32 error) {
           step_toward(mul_add(distance, n.z, position.z), n.z)};
 }
 
-HWY_INLINE void store3(const V3& v, float out[3][kLanes]) { v.x.store(out[0]), v.y.store(out[1]), v.z.store(out[2]); }
+struct NewRay { V3 origin, direction; F32 t_max; I32 from; };
+struct Differentials { V3 origin_dx, origin_dy, direction_dx, direction_dy; };
 
-struct ShadowRay { V3 origin, direction; F32 t_max; I32 from; };
+// The active lanes, or all, to the entries from n on. Writes whole vectors: up to kLanes entries past them.
+template <bool kAll> struct Appender {
+  Mask active;
+  int n;
+  template <class Lanes, class Word> HWY_INLINE void put(const Lanes& value, AlignedBuffer<Word>& to) const {
+    if constexpr (kAll) value.store(to.data() + n);
+    else compress_store(value, active, to.data() + n);
+  }
+  HWY_INLINE void put(const V3& v, AlignedBuffer<float> (&to)[3]) const { put(v.x, to[0]), put(v.y, to[1]), put(v.z, to[2]); }
+};
 
-// The rays of active lanes of surfaces i .., as rays n and on. Writes whole vectors: up to kLanes entries past them.
-HWY_INLINE void append(const SurfaceBatch& s, int i, Mask active, const ShadowRay& ray, RayBatch& rays,
+// The rays of active lanes of surfaces i .., as rays n and on. d: nullptr, or for batches that have differentials.
+HWY_INLINE void append(const SurfaceBatch& s, int i, Mask active, const NewRay& ray, const Differentials* d, RayBatch& rays,
                        AlignedBuffer<uint32_t>& surface_of_ray, int& n) {
-  const F32* const origin[3] = {&ray.origin.x, &ray.origin.y, &ray.origin.z};
-  const F32* const direction[3] = {&ray.direction.x, &ray.direction.y, &ray.direction.z};
-  const I32 pixel = I32::load(s.pixel + i), surface = lane_iota(i);
-  if (all(active)) {
-    for (int a = 0; a < 3; ++a) origin[a]->store(rays.origin[a].data() + n), direction[a]->store(rays.direction[a].data() + n);
-    ray.t_max.store(rays.t_max.data() + n);
-    pixel.store(rays.pixel.data() + n), ray.from.store(rays.from.data() + n), surface.store(surface_of_ray.data() + n);
-    n += kLanes;
-    return;
-  }
-  for (int a = 0; a < 3; ++a) {
-    compress_store(*origin[a], active, rays.origin[a].data() + n);
-    compress_store(*direction[a], active, rays.direction[a].data() + n);
-  }
-  compress_store(ray.t_max, active, rays.t_max.data() + n);
-  compress_store(pixel, active, rays.pixel.data() + n);
-  compress_store(ray.from, active, rays.from.data() + n);
-  n += compress_store(surface, active, surface_of_ray.data() + n);
+  const auto append_by = [&](const auto& to) HWY_ATTR {
+    to.put(ray.origin, rays.origin), to.put(ray.direction, rays.direction);
+    to.put(ray.t_max, rays.t_max), to.put(I32::load(s.pixel + i), rays.pixel), to.put(ray.from, rays.from);
+    to.put(lane_iota(i), surface_of_ray);
+    if (d == nullptr) return;
+    to.put(d->origin_dx, rays.origin_dx), to.put(d->origin_dy, rays.origin_dy);
+    to.put(d->direction_dx, rays.direction_dx), to.put(d->direction_dy, rays.direction_dy);
+  };
+  if (all(active)) append_by(Appender<true>{active, n});
+  else append_by(Appender<false>{active, n});
+  n += count(active);
 }
 
-void resize_rays(int n, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
-  rays.resize(n, false);
+void resize_rays(int n, bool differentials, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
+  rays.resize(n, differentials);
   rays.from.resize(static_cast<size_t>(n));
   surface_of_ray.resize(static_cast<size_t>(n));
 }
@@ -77,7 +80,7 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
   const LightLanes lanes = broadcast_light(light);
   const bool by_normal = frame.settings.shading == Shading::kPhong;
   int n = rays.count;
-  resize_rays(n + s.count + kLanes, rays, surface_of_ray);
+  resize_rays(n + s.count + kLanes, false, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     Mask active = active_lanes(s, i, nullptr);
     if (!any(active)) continue;
@@ -94,9 +97,9 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
       from = select(lifted, i32(kNoPrimitive), from);
     }
     const Segment segment = Kind::segment(lanes, start);
-    append(s, i, active, {start, segment.direction, segment.t_max, from}, rays, surface_of_ray, n);
+    append(s, i, active, {start, segment.direction, segment.t_max, from}, nullptr, rays, surface_of_ray, n);
   }
-  resize_rays(n, rays, surface_of_ray);
+  resize_rays(n, false, rays, surface_of_ray);
 }
 
 // Surfaces i .. that want lifted shadow rays to one light.
@@ -178,7 +181,7 @@ void make_shadow_rays_entry(const Frame& frame, const SurfaceBatch& s, int light
 // since a ray meets nothing where it starts.
 void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray) {
   int n = 0;
-  resize_rays(s.count + kLanes, rays, surface_of_ray);
+  resize_rays(s.count + kLanes, false, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     const Mask liftable = has_lift(s, i) & active_lanes(s, i, nullptr);
     if (!any(liftable)) continue;
@@ -190,9 +193,9 @@ void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& r
     if (!any(active)) continue;
     const V3 start = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
     const V3 way = position + load3(s.lift, i) - start;
-    append(s, i, active, {start, way, f32(1.0f + 0x1p-10f), I32::load(s.primitive + i)}, rays, surface_of_ray, n);
+    append(s, i, active, {start, way, f32(1.0f + 0x1p-10f), I32::load(s.primitive + i)}, nullptr, rays, surface_of_ray, n);
   }
-  resize_rays(n, rays, surface_of_ray);
+  resize_rays(n, false, rays, surface_of_ray);
 }
 
 // Mirror rays about the shading normal, appended in order of surfaces.
@@ -203,9 +206,7 @@ void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& r
 void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, RayBatch& rays,
                             AlignedBuffer<uint32_t>& surface_of_ray) {
   int n = rays.count;
-  rays.resize(n + s.count, true);
-  rays.from.resize(static_cast<size_t>(n + s.count));
-  surface_of_ray.resize(static_cast<size_t>(n + s.count));
+  resize_rays(n + s.count + kLanes, true, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
     const V3 mirror = load3(s.mirror, i);
     const F32 zero = F32::zero();
@@ -213,29 +214,13 @@ void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const Hit
     if (!any(active)) continue;
     const V3 normal = load3(s.normal, i), geometric_normal = load3(s.geometric_normal, i);
     const RayDirection ray = ray_direction(frame, s, hits, active, i);
-    float lanes[18][kLanes];
-    store3(offset_origin(load3(s.position, i), geometric_normal, F32::load(s.position_error + i)), lanes);
-    store3(mirror_direction(ray.d, normal, geometric_normal), lanes + 3);
-    store3(load3(s.dpdx, i), lanes + 6);
-    store3(load3(s.dpdy, i), lanes + 9);
-    store3(mirror_differential(ray.dx, normal), lanes + 12);
-    store3(mirror_differential(ray.dy, normal), lanes + 15);
-    for (uint32_t bits = to_bits(active); bits != 0; bits &= bits - 1) {
-      const int k = __builtin_ctz(bits);
-      for (int a = 0; a < 3; ++a) {
-        rays.origin[a][n] = lanes[a][k], rays.direction[a][n] = lanes[3 + a][k];
-        rays.origin_dx[a][n] = lanes[6 + a][k], rays.origin_dy[a][n] = lanes[9 + a][k];
-        rays.direction_dx[a][n] = lanes[12 + a][k], rays.direction_dy[a][n] = lanes[15 + a][k];
-      }
-      rays.t_max[n] = kInfinity;
-      rays.pixel[n] = s.pixel[i + k];
-      rays.from[n] = s.primitive[i + k];
-      surface_of_ray[n++] = static_cast<uint32_t>(i + k);
-    }
+    const NewRay mirrored = {offset_origin(load3(s.position, i), geometric_normal, F32::load(s.position_error + i)),
+                             mirror_direction(ray.d, normal, geometric_normal), f32(kInfinity), I32::load(s.primitive + i)};
+    const Differentials differentials = {load3(s.dpdx, i), load3(s.dpdy, i), mirror_differential(ray.dx, normal),
+                                         mirror_differential(ray.dy, normal)};
+    append(s, i, active, mirrored, &differentials, rays, surface_of_ray, n);
   }
-  rays.resize(n, true);
-  rays.from.resize(static_cast<size_t>(n));
-  surface_of_ray.resize(static_cast<size_t>(n));
+  resize_rays(n, true, rays, surface_of_ray);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
