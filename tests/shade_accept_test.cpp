@@ -176,8 +176,25 @@ TEST(FrameTransparency, SettingsOverrideMaterials) {
     EXPECT_EQ(under(Transparency::kScene), c.scene);
     EXPECT_EQ(under(Transparency::kNone), c.none);
     EXPECT_EQ(under(Transparency::kAlpha), c.alpha);
-    EXPECT_EQ(material_flags(m, s), c.alpha == M::kAlpha ? kMaterialTranslucent : c.alpha == M::kOpaque ? 0u : kMaterialMasked);
+    EXPECT_EQ(material_flags(m, s) & (kMaterialMasked | kMaterialTranslucent), c.alpha == M::kAlpha ? kMaterialTranslucent : c.alpha == M::kOpaque ? 0u : kMaterialMasked);
     EXPECT_EQ(under(Transparency::kScreenDoor), c.door);
+  }
+}
+
+TEST(FrameTransparency, FlagsSayWhichMaterialsHaveMaps) {
+  const auto maps_of = [](const Material& m) { return material_flags(m, Settings()) & (kMaterialMapped | kMaterialBumped); };
+  EXPECT_EQ(maps_of(Material()), 0u);
+  int32_t Material::*const colors[] = {&Material::map_ambient,  &Material::map_diffuse,  &Material::map_specular,
+                                       &Material::map_shininess, &Material::map_emission, &Material::map_opacity};
+  for (int32_t Material::*const map : colors) {
+    Material m;
+    m.*map = 0;
+    EXPECT_EQ(maps_of(m), kMaterialMapped);
+  }
+  for (int32_t Material::*const map : {&Material::map_bump, &Material::map_normal}) {
+    Material m;
+    m.*map = 0;
+    EXPECT_EQ(maps_of(m), kMaterialMapped | kMaterialBumped);
   }
 }
 

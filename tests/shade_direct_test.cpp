@@ -1,6 +1,9 @@
 // Radiance of primary hits in one go (shade/direct.h) against the way through stored surfaces: the same bits.
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "scene/height_rows.h"
 #include "shade/direct.h"
 #include "shade/surface_kernels.h"
 #include "spanray/render.h"
@@ -94,12 +97,36 @@ SceneData layers_of_textures(TestRandom& random) {
     m.map_diffuse = add();
     if (i % 3 == 0) m.map_specular = add(), m.map_emission = m.map_diffuse;
     if (i % 3 == 1) m.map_ambient = add();
+    if (i % 4 == 3) continue;
+    m.map_bump = i % 4 == 2 ? m.map_diffuse : add();
+    TextureUse& heights = scene.texture_uses[static_cast<size_t>(m.map_bump)];
+    heights.channel = static_cast<int32_t>(i % 3), heights.bump_multiplier = 1.5f;
   }
   return scene;
 }
 
+// The colors of the way through surfaces of vectors that see many materials each: entries far apart stand side by side.
+TestRadiance radiance_lane_by_lane(Frame& frame, const HitBatch& hits) {
+  constexpr int kApart = 64;
+  HitBatch mixed;
+  std::vector<int> from;
+  for (int first = 0; first < kApart; ++first)
+    for (int i = first; i < hits.count; i += kApart) {
+      from.push_back(i);
+      add_hit(mixed, hits.pixel[static_cast<size_t>(i)], 0, hits.primitive[static_cast<size_t>(i)]);
+    }
+  mixed.rays = nullptr;
+  frame.isa = supported_isas().back();
+  SurfaceBatch surfaces;
+  const TestRadiance of_mixed = radiance_of_surfaces(frame, mixed, surfaces);
+  TestRadiance radiance(hits.count);
+  for (size_t i = 0; i < from.size(); ++i)
+    for (size_t c = 0; c < 3; ++c) radiance.channel[c][static_cast<size_t>(from[i])] = of_mixed.channel[c][i];
+  return radiance;
+}
+
 // Textures that whole vectors read, against the same bits read lane by lane: as they are, and with each option of a use.
-TEST(DirectTextures, AreThoseOfSurfaces) {
+TEST(DirectTextures, AreThoseReadLaneByLane) {
   TestRandom random(43);
   SceneData scene = layers_of_textures(random);
   scene.lights = make_lit_scene(random, 1).lights;
@@ -108,7 +135,7 @@ TEST(DirectTextures, AreThoseOfSurfaces) {
   camera.eye[0] = camera.eye[1] = 0, camera.eye[2] = 4, camera.target[0] = camera.target[1] = camera.target[2] = 0;
   auto t = full_frame(std::move(scene), camera, 512, 512);
   Frame& frame = t->frame;
-  frame.plan.lifted_rays = frame.plan.bounces = frame.plan.shadow_rays = frame.plan.bump = false;
+  frame.plan.lifted_rays = frame.plan.bounces = frame.plan.shadow_rays = false;
   HitBatch hits;
   for (int run = 0; run < 40; ++run) {  // a triangle each, now and then ending within a vector, in blocks of 4 x 4
     const uint32_t x0 = random.bits() % 500, y0 = random.bits() % 500, triangle = static_cast<uint32_t>(run) % layers;
@@ -122,26 +149,32 @@ TEST(DirectTextures, AreThoseOfSurfaces) {
   constexpr Change kChanges[] = {
       [](TextureUse&) {},          [](TextureUse& u) { u.scale[0] = 2; },   [](TextureUse& u) { u.scale[1] = 2; },
       [](TextureUse& u) { u.offset[0] = 0.3f; }, [](TextureUse& u) { u.offset[1] = 0.3f; }, [](TextureUse& u) { u.clamp = 1; },
-      [](TextureUse& u) { u.gain = 0.5f; }, [](TextureUse& u) { u.base = 0.1f; }};
+      [](TextureUse& u) { u.gain = 0.5f; }, [](TextureUse& u) { u.base = 0.1f; },
+      [](TextureUse& u) { u.channel = -1; }, [](TextureUse& u) { u.bump_multiplier = 0.5f; }};
   TestRadiance plain(hits.count);
   for (const Change& change : kChanges)
-    for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear})
+    for (const Filter filter : {Filter::kNearest, Filter::kBilinear, Filter::kTrilinear}) {
+      const std::vector<TextureUse> uses = t->scene.texture_uses;
+      for (TextureUse& u : t->scene.texture_uses) change(u);
+      make_height_rows(t->scene);
+      frame.settings.filter = filter;
+      const TestRadiance want = radiance_lane_by_lane(frame, hits);
       for (const Isa isa : supported_isas()) {
-        const std::vector<TextureUse> uses = t->scene.texture_uses;
-        for (TextureUse& u : t->scene.texture_uses) change(u);
-        frame.isa = isa, frame.settings.filter = filter;
-        const TestRadiance want = radiance_of_surfaces(frame, hits, surfaces);
-        TestRadiance got(hits.count + 64);
-        shade_direct(frame, hits, planes, got.at().p);
+        frame.isa = isa;
+        TestRadiance direct(hits.count + 64);
+        shade_direct(frame, hits, planes, direct.at().p);
+        const TestRadiance stored = radiance_of_surfaces(frame, hits, surfaces);
         for (size_t i = 0; i < static_cast<size_t>(hits.count); ++i)
           for (size_t c = 0; c < 3 && hits.primitive[i] != kNoPrimitive; ++c)
-            ASSERT_EQ(std::memcmp(&want.channel[c][i], &got.channel[c][i], 4), 0)
-                << isa_name(isa) << " change " << &change - kChanges << " filter " << static_cast<int>(filter) << " entry " << i;
-        t->scene.texture_uses = uses;
-        if (filter != Filter::kTrilinear) continue;
-        if (&change == kChanges) plain = want;
-        EXPECT_EQ(plain == want, &change == kChanges);
+            for (const TestRadiance* got : {&std::as_const(direct), &stored})
+              ASSERT_EQ(std::memcmp(&want.channel[c][i], &got->channel[c][i], 4), 0)
+                  << isa_name(isa) << " change " << &change - kChanges << " filter " << static_cast<int>(filter) << " entry " << i;
       }
+      t->scene.texture_uses = uses;
+      if (filter != Filter::kTrilinear) continue;
+      if (&change == kChanges) plain = want;
+      EXPECT_EQ(plain == want, &change == kChanges) << "change " << &change - kChanges;
+    }
 }
 
 uint64_t count(const FrameStats& stats, const std::string& name) {

@@ -29,10 +29,12 @@ enum MaterialMaps : uint32_t {
   kMapAmbient = 1, kMapDiffuse = 2, kMapSpecular = 4, kMapShininess = 8, kMapEmission = 16, kMapOpacity = 32, kAllMaps = 63
 };
 
-// What a material means to visibility in this frame: Settings::transparency may override the material's own wish.
+// What a material means in this frame: to visibility, where Settings::transparency may override the material's own wish, and to shading.
 enum MaterialFlags : uint32_t {
   kMaterialMasked = 1,       // accept(hit) decides: alpha mask (map_d) or screen-door
   kMaterialTranslucent = 2,  // blended by alpha after the opaque surfaces; not an occluder of shadow rays
+  kMaterialMapped = 4,       // has a map: its surfaces have texture coordinates
+  kMaterialBumped = 8,       // has a height or normal map: and tangents
 };
 
 // Answers accept(hit) for primitives whose material is kMaterialMasked: alpha masks (map_d) and screen-door. Both engines ask it

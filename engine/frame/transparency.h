@@ -26,13 +26,17 @@ inline MaterialTransparency effective_transparency(const Material& material, con
 
 // MaterialFlags of a material: what fills Frame::material_flags.
 inline uint32_t material_flags(const Material& material, const Settings& settings) {
+  uint32_t flags = material.map_bump >= 0 || material.map_normal >= 0 ? kMaterialMapped | kMaterialBumped : 0u;
+  for (const int32_t map : {material.map_ambient, material.map_diffuse, material.map_specular, material.map_shininess,
+                            material.map_emission, material.map_opacity})
+    if (map >= 0) flags |= kMaterialMapped;
   switch (effective_transparency(material, settings)) {
     case MaterialTransparency::kOpaque: break;
     case MaterialTransparency::kMask:
-    case MaterialTransparency::kScreenDoor: return kMaterialMasked;
-    case MaterialTransparency::kAlpha: return kMaterialTranslucent;
+    case MaterialTransparency::kScreenDoor: return flags | kMaterialMasked;
+    case MaterialTransparency::kAlpha: return flags | kMaterialTranslucent;
   }
-  return 0;
+  return flags;
 }
 
 }  // namespace spanray

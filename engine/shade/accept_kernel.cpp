@@ -45,8 +45,8 @@ F32 mask_opacity(const Frame& frame, const HitLanes& hits, int32_t map, float fa
   const SurfaceLanes s = resolve_lanes(ray, t);
   const DifferentialLanes d = load_differentials(frame, hits);
   const F64 distance = hit_t(s, ray);
-  const UvLanes uv = resolve_uv(frame, t, s, transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal),
-                                transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal));
+  const UvLanes uv = resolve_uv(scene, t, s, transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal),
+                                transfer(d.origin_dy, d.direction_dy, distance, ray, s.normal), false);
   UseLanes use = open_use(scene, i32(map), true, hits.valid, uv);
   use.level_256 = min_(use.level_256, i32(kMaskLastLevel * 256));
   const F32 value = f32(factor) * scalar_of(scene, use, sample<4>(scene, use, frame.settings.filter));

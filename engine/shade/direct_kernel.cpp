@@ -43,7 +43,7 @@ struct Shaded {
     const int32_t first = first_lane(material);
     first_material = static_cast<uint32_t>(first * kMaterialStride), one_material = all(material == i32(first));
     if (frame.plan.normals) normal = point.normal, view = point.view;
-    if (reads_textures(frame)) uv = point.uv;
+    if (point.mapped) uv = point.uv;
   }
 };
 

@@ -23,14 +23,15 @@ enum PlaneFloat : int {
   kPlanePosition = 2, kPlaneNormal = 11,  // nine each
   kPlaneWeight = 20,                     // of corners 1 and 2: value, per_x, per_y
   kPlaneView = 26,                       // toward the eye, of depth 1
-  kPlaneUv = 29,                         // fraction of u, v; per_x of both; per_y of both; whole part of u, v
+  kPlaneUv = 29,                         // fraction of u, v; per_x of both; per_y of both; whole part of u, v: eight
   kPlaneGeometric = 37,                  // unit, toward the eye; zero for a triangle without area
   kPlaneTangentU = 40, kPlaneTangentV = 43,
   kPlaneError = 46,                      // what the size of the triangle adds to position_error, and what each pixel from the anchor
   kPlaneMaterial = 49,                   // bits of the index
   kPlaneSlimness = 50,                   // the inverse of the triangle's smallest height
   kPlaneInside = 51,                     // not 0: all pixels of the cell lie inside the triangle, clear of its edges (cell_inside)
-  kPlaneFloatCount = 52,
+  kPlaneMapped = 52,                     // not 0: has texture coordinates
+  kPlaneFloatCount = 53,
   kPlaneLight = kPlaneFloatCount  // of each light diffuse and specular, of the face, or (Gouraud) diffuse of the three corners, then specular
 };
 enum PlaneReal : int { kPlaneStepX = 0, kPlaneStepY = 1, kPlaneDepth = 2, kPlaneRealCount = 3 };
@@ -197,6 +198,23 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
     });
 }
 
+// What textures are read by, where some triangle has any. flags: those of the materials.
+HWY_INLINE void store_textures(const Frame& frame, float* out, I32 flags, const TriangleLanes& t, const WeightPlanes& w, const V3d& side1,
+                               const V3d& side2, const V3d& normal) {
+  const F32 zero = F32::zero();
+  const Mask mapped = (flags & i32(int32_t{kMaterialMapped})) != I32::zero();
+  store_plane(out, kPlaneMapped, select(mapped, f32(1.0f), zero));
+  UvTangents along{{zero, zero, zero}, {zero, zero, zero}};
+  if (any(mapped)) {
+    const CornerUv c = corner_uv(*frame.scene, t);
+    store_uv(out, w, c);
+    if (frame.plan.bump && any_flag(flags, kMaterialBumped)) along = uv_tangents(c, side1, side2, normal);
+  } else {  // vectors with mapped lanes read these, too
+    for (int field = kPlaneUv; field < kPlaneGeometric; ++field) store_plane(out, field, zero);
+  }
+  if (frame.plan.bump) store_plane(out, kPlaneTangentU, along.u), store_plane(out, kPlaneTangentV, along.v);
+}
+
 // kLanes planes from entry `at` on.
 // Source:   Olano and Greer 1997 (resolve-inl.h): the edge functions e of a primary ray are linear in the pixel. With s = sum(e) /
 //           sum(e at the anchor), b(pixel) - b(anchor) = (dx (e_x / sum - b s_x) + dy (e_y / sum - b s_y)) / s.
@@ -231,14 +249,8 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
   store_attribute(out, kPlanePosition, w, t.v0, side1, side2);
   if (frame.plan.views)
     store_plane(out, kPlaneView, to_f32(-(broadcast(p.corner) + broadcast(p.step_x) * x + broadcast(p.step_y) * y)));
-  if (reads_textures(frame)) {
-    const CornerUv c = corner_uv(scene, t);
-    store_uv(out, w, c);
-    if (frame.plan.bump) {
-      const UvTangents g = uv_tangents(c, side1, side2, normal);
-      store_plane(out, kPlaneTangentU, g.u), store_plane(out, kPlaneTangentV, g.v);
-    }
-  }
+  const I32 material = t.bits & i32(kTriangleMaterialMask);
+  if (reads_textures(frame)) store_textures(frame, out, flags_of_materials(frame, material), t, w, side1, side2, normal);
   const V3f geometric = geometric_normal(t, normal, from_eye);
   store_plane(out, kPlaneGeometric, geometric);
   if (block.fields > kPlaneFloatCount) {
@@ -263,7 +275,7 @@ HWY_INLINE void store_face_light(const Frame& frame, float* out, const TriangleL
     inside = select(whole & (dot(geometric, geometric) > F32::zero()), f32(1.0f), inside);
   }
   store_plane(out, kPlaneInside, inside);
-  store_plane(out, kPlaneMaterial, float_from_bits(t.bits & i32(kTriangleMaterialMask)));
+  store_plane(out, kPlaneMaterial, float_from_bits(material));
 }
 
 }  // namespace surface_lanes

@@ -26,11 +26,16 @@ struct PointLanes {
   V3f position, weight, view, geometric, normal;  // as SurfaceBatch
   F32 position_error, t;
   V3f dpdx, dpdy;  // only with plan.bounces
-  UvLanes uv;      // only if reads_textures
+  bool mapped;     // some lane reads textures
+  UvLanes uv;      // only if mapped
   I32 material;
 };
 
 HWY_INLINE bool reads_textures(const Frame& frame) { return frame.plan.textures || frame.plan.bump || frame.plan.translucents; }
+
+// MaterialFlags of all lanes together.
+HWY_INLINE I32 flags_of_materials(const Frame& frame, I32 material) { return gather(frame.material_flags, material); }
+HWY_INLINE bool any_flag(I32 flags, MaterialFlags flag) { return any((flags & i32(static_cast<int32_t>(flag))) != I32::zero()); }
 
 // a - floor(a), in [0, 1]; 0 for NaN and where doubles have no fraction left.
 HWY_INLINE F64 fraction(F64 a) {

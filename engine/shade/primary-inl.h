@@ -37,6 +37,11 @@ template <int kCount, bool kAllInside = false> struct FewPlanes {
     for (int i = 1; i < kCount; ++i) r = select(lanes[i], f64(real[i][field * kPlaneLine]), r);
     return r;
   }
+  HWY_INLINE bool mapped() const {
+    bool r = false;
+    for (int i = 0; i < kCount; ++i) r |= single[i][kPlaneMapped * kPlaneLine] != 0.0f;
+    return r;
+  }
 };
 struct ManyPlanes {
   static constexpr bool kInside = false;
@@ -44,6 +49,7 @@ struct ManyPlanes {
   const double* real;
   I32 single_offset, real_offset;
   HWY_INLINE F32 f(int field) const { return gather(single + field * kPlaneLine, single_offset); }
+  HWY_INLINE bool mapped() const { return true; }  // asking costs as much as it saves
   HWY_INLINE F64 d(int field) const { return gather(real + field * kPlaneLine, real_offset); }
 };
 // Of planes that stand within four lines: permutations of these instead of gathers.
@@ -60,6 +66,7 @@ struct NearPlanes {
     const F32 a = lookup32(F32::load(line), F32::load(line + stride), plane);
     return select(high, lookup32(F32::load(line + 2 * stride), F32::load(line + 3 * stride), plane), a);
   }
+  HWY_INLINE bool mapped() const { return true; }  // asking costs as much as it saves
   HWY_INLINE F64 d(int field) const { return gather(real + field * kPlaneLine, real_offset); }
 };
 template <class Planes> HWY_INLINE V3f plane3(const Planes& p, int field) { return {p.f(field), p.f(field + 1), p.f(field + 2)}; }
@@ -136,7 +143,8 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
   point.normal = point.geometric;
   if (frame.plan.normals && frame.settings.shading != Shading::kFlat)
     point.normal = normal_of_blend(frame, plane3(p, kPlaneNormal) + moved3(p, at, kPlaneNormal), point.geometric);
-  if (!frame.plan.bounces && !reads_textures(frame)) {
+  point.mapped = reads_textures(frame) && p.mapped();
+  if (!frame.plan.bounces && !point.mapped) {
     point.material = bits_of(p.f(kPlaneMaterial));
     return good;
   }
@@ -149,7 +157,7 @@ HWY_INLINE Mask primary_point(const Frame& frame, const Planes& p, I32 pixel, co
     };
     point.dpdx = by_pixel(single_x, kPlanePosition + 3), point.dpdy = by_pixel(single_y, kPlanePosition + 6);
   }
-  if (reads_textures(frame)) point.uv = primary_uv(frame, p, at, single_x, single_y);
+  if (point.mapped) point.uv = primary_uv(frame, p, at, single_x, single_y);
   point.material = bits_of(p.f(kPlaneMaterial));
   return good;
 }

@@ -54,7 +54,7 @@ HWY_INLINE void store_point(const Frame& frame, const SurfaceBatch& out, int at,
   put(g, out.geometric_normal, point.geometric);
   if (out.fields & kSurfaceNormal)
     put(g, out.normal, frame.plan.bump ? point.normal : clamp_to_horizon(point.normal, point.geometric));
-  if (reads_textures(frame)) uv = point.uv;
+  if (point.mapped) uv = point.uv;
 }
 
 // The rest of a stored point.

@@ -47,8 +47,10 @@ struct UseLanes : MapLanes {
 };
 
 // Input: the derivatives of position by a pixel step. db1/dp = cross(e2, n) / |n|^2, db2/dp = cross(n, e1) / |n|^2.
-HWY_INLINE UvLanes resolve_uv(const Frame& frame, const TriangleLanes& t, const SurfaceLanes& s, const V3d& dpdx, const V3d& dpdy) {
-  const CornerUv c = corner_uv(*frame.scene, t);
+// tangents: whether those are wanted.
+HWY_INLINE UvLanes resolve_uv(const SceneData& scene, const TriangleLanes& t, const SurfaceLanes& s, const V3d& dpdx, const V3d& dpdy,
+                              bool tangents) {
+  const CornerUv c = corner_uv(scene, t);
   UvLanes uv;
   const SplitLanes u = split(c.u0 + s.b1 * c.du1 + s.b2 * c.du2), v = split(c.v0 + s.b1 * c.dv1 + s.b2 * c.dv2);
   uv.u = u.rest, uv.v = v.rest, uv.whole_u = u.whole, uv.whole_v = v.whole;
@@ -58,10 +60,9 @@ HWY_INLINE UvLanes resolve_uv(const Frame& frame, const TriangleLanes& t, const 
   g.u = g.u * scale, g.v = g.v * scale;
   uv.du_dx = to_f32(dot(g.u, dpdx)), uv.dv_dx = to_f32(dot(g.v, dpdx));
   uv.du_dy = to_f32(dot(g.u, dpdy)), uv.dv_dy = to_f32(dot(g.v, dpdy));
-  if (frame.plan.bump) {
-    const UvTangents tangents = uv_tangents(c, s.edge1, s.edge2, s.normal);
-    uv.tangent_u = tangents.u, uv.tangent_v = tangents.v;
-  }
+  if (!tangents) return uv;
+  const UvTangents along = uv_tangents(c, s.edge1, s.edge2, s.normal);
+  uv.tangent_u = along.u, uv.tangent_v = along.v;
   return uv;
 }
 
