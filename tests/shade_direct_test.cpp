@@ -1,6 +1,7 @@
 // Radiance of primary hits in one go (shade/direct.h) against the way through stored surfaces: the same bits.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <utility>
 
 #include "scene/height_rows.h"
@@ -49,23 +50,28 @@ TEST_P(Direct, IsTheWayThroughSurfaces) {
   random_primary_hits(frame, random, kCount, hits);
   for (int i = 0; i < kCount; ++i)
     if (i % 97 == 50 || (i >= 200 && i < 300) || i == 1023 || i == 1024) hits.primitive[static_cast<size_t>(i)] = kNoPrimitive;
-  AlignedBuffer<float> planes;
+  AlignedBuffer<float> planes, t_of_hits(kCount);
   for (const bool specular : {true, false})
     for (const bool textures : {true, false})
       for (const Isa isa : supported_isas()) {
-        frame.isa = isa, frame.plan.specular = specular, frame.plan.textures = textures;
+        frame.isa = isa, frame.plan.specular = specular, frame.plan.textures = textures, frame.plan.depths = specular;
+        t_of_hits[0] = -1;
         SurfaceBatch surfaces;
         const TestRadiance want = radiance_of_surfaces(frame, hits, surfaces);
         TestRadiance got(kCount + 64);
-        const DirectCounts counts = shade_direct(frame, hits, planes, got.at().p);
+        const DirectCounts counts = shade_direct(frame, hits, planes, got.at().p, t_of_hits.data());
         int lit = 0, found = 0;
         for (size_t i = 0; i < kCount; ++i)
           for (size_t c = 0; c < 3; ++c) {
             const bool hit = hits.primitive[i] != kNoPrimitive;
             const float expected = hit ? want.channel[c][i] : frame.scene->background[c];
             ASSERT_EQ(std::memcmp(&expected, &got.channel[c][i], 4), 0) << isa_name(isa) << " entry " << i << " channel " << c;
+            if (c == 0 && specular) {
+              ASSERT_EQ(t_of_hits[i], hit ? surfaces.t[i] : std::numeric_limits<float>::infinity()) << isa_name(isa) << " entry " << i;
+            }
             found += hit && c == 0, lit += hit && expected > surfaces.ambient[c][static_cast<int>(i)] + 0.01f;
           }
+        EXPECT_EQ(t_of_hits[0] == -1, !specular);
         EXPECT_EQ(counts.surface_lanes.used, static_cast<uint64_t>(found));
         EXPECT_GT(lit, kCount);
       }
@@ -143,7 +149,7 @@ TEST(DirectTextures, AreThoseReadLaneByLane) {
       add_hit(hits, pack_pixel(x0 + i % 4 + i / 32 * 4, y0 + i / 4 % 8), 0, i == 37 ? kNoPrimitive : triangle);
   }
   hits.rays = nullptr;
-  AlignedBuffer<float> planes;
+  AlignedBuffer<float> planes, t_of_hits(static_cast<size_t>(hits.count));
   SurfaceBatch surfaces;
   using Change = void (*)(TextureUse&);
   constexpr Change kChanges[] = {
@@ -162,7 +168,7 @@ TEST(DirectTextures, AreThoseReadLaneByLane) {
       for (const Isa isa : supported_isas()) {
         frame.isa = isa;
         TestRadiance direct(hits.count + 64);
-        shade_direct(frame, hits, planes, direct.at().p);
+        shade_direct(frame, hits, planes, direct.at().p, t_of_hits.data());
         const TestRadiance stored = radiance_of_surfaces(frame, hits, surfaces);
         for (size_t i = 0; i < static_cast<size_t>(hits.count); ++i)
           for (size_t c = 0; c < 3 && hits.primitive[i] != kNoPrimitive; ++c)
@@ -196,13 +202,13 @@ TEST(DirectFrames, SameColorsWhetherSurfacesAreStoredOrNot) {
         settings.shading = shading, settings.samples = samples;
         Framebuffer direct, stored;
         FrameRequest request;
-        request.radiance = true;
+        request.radiance = request.depth = true;
         Renderer renderer;
         const auto first = renderer.render(loaded.value().scene, loaded.value().scene.cameras()[0], settings, direct, request);
         request.normal = true;
         const auto second = renderer.render(loaded.value().scene, loaded.value().scene.cameras()[0], settings, stored, request);
         ASSERT_TRUE(first && second);
-        EXPECT_TRUE(direct.color.rgba == stored.color.rgba && direct.radiance == stored.radiance) << name;
+        EXPECT_TRUE(direct.color.rgba == stored.color.rgba && direct.radiance == stored.radiance && direct.depth == stored.depth) << name;
         for (const char* what : {"pixels_covered", "surfaces_shaded", "triangles_drawn"}) EXPECT_EQ(count(first.value(), what), count(second.value(), what));
       }
   }

@@ -107,7 +107,7 @@ void shade_slots(const FrameJob& job, TileWorker& w, Level& level) {
   float* const radiance[3] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data()};
   lend();
   hits.pad();
-  const DirectCounts counts = shade_direct(job.frame, hits, level.surfaces.planes, radiance);
+  const DirectCounts counts = shade_direct(job.frame, hits, level.surfaces.planes, radiance, level.opaque_t.data());
   lend();
   for (int c = 0; c < 3; ++c) std::swap(level.radiance[c], w.radiance[c]);
   hits.count = static_cast<int>(counts.surface_lanes.used);

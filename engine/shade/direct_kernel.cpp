@@ -1,5 +1,6 @@
 // Hits of primary rays -> radiance, kLanes at a time from plane to light.
 #include <cstddef>
+#include <limits>
 
 #include "shade/direct.h"
 #include "shade/light_kernel.h"
@@ -30,6 +31,7 @@ constexpr int kTogether = 4;  // vectors that go from stage to stage together: t
 struct Shaded {
   Mask valid;
   V3f position, geometric, view, normal;
+  F32 t;
   I32 material;
   uint32_t first_material;  // word of SceneData::materials where the first lane's begins
   bool one_material;        // that of all lanes
@@ -43,6 +45,7 @@ struct Shaded {
     const int32_t first = first_lane(material);
     first_material = static_cast<uint32_t>(first * kMaterialStride), one_material = all(material == i32(first));
     if (frame.plan.normals) normal = point.normal, view = point.view;
+    if (frame.plan.depths) t = point.t;
     if (point.mapped) uv = point.uv;
   }
 };
@@ -56,7 +59,7 @@ HWY_NOINLINE void apply_bump(const Frame& frame, PlainTextures& plain, Shaded& s
   s.normal = bumped_normal(materials_of(frame, plain, s), s.uv, s.normal);
 }
 HWY_NOINLINE void apply_textures(const Frame& frame, PlainTextures& plain, Shaded& s) {
-  apply_maps(materials_of(frame, plain, s), s.uv, s.m);
+  apply_maps(materials_of(frame, plain, s), s.uv, s.m, false);
 }
 
 HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
@@ -138,8 +141,8 @@ template <class Kind> struct OneLight {
 // A batch, a few vectors at a time.
 class DirectShader {
  public:
-  DirectShader(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& memory, float* const radiance[3])
-      : frame_(frame), hits_(hits), radiance_(radiance),
+  DirectShader(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& memory, float* const radiance[3], float* t)
+      : frame_(frame), hits_(hits), radiance_(radiance), t_(t),
         carried_lights_(frame.settings.shading == Shading::kPhong ? 0 : static_cast<int>(frame.scene->lights.size())),
         stride_(2 * kLanes * carried_lights_), planes_(memory, light_fields_of(frame, carried_lights_), kTogether * stride_) {}
 
@@ -152,7 +155,7 @@ class DirectShader {
         for (int k = 0; k < vectors_; ++k) find_sample(frame_, textures_, shaded_[k]);
       for (int k = 0; k < vectors_; ++k) add_material(frame_, textures_, shaded_[k]);
       add_lights();
-      for (int k = 0; k < vectors_; ++k) store(at_[k], shaded_[k].valid, shaded_[k].radiance);
+      for (int k = 0; k < vectors_; ++k) store(at_[k], shaded_[k]);
     }
     return counts_;
   }
@@ -173,7 +176,8 @@ class DirectShader {
       s.valid = triangles_at(*frame_.scene, hits_, i);
       const int found = count(s.valid);
       if (found == 0) {
-        store(i, s.valid, {F32::zero(), F32::zero(), F32::zero()});
+        s.radiance = {F32::zero(), F32::zero(), F32::zero()}, s.t = F32::zero();
+        store(i, s);
         continue;
       }
       float* const carried = planes_.spare() + vectors_ * stride_;
@@ -199,16 +203,18 @@ class DirectShader {
     }
   }
 
-  HWY_INLINE void store(int at, Mask valid, const Vec& color) const {
+  HWY_INLINE void store(int at, const Shaded& s) const {
     const float* const background = frame_.scene->background;
-    select(valid, color.x, f32(background[0])).store(radiance_[0] + at);
-    select(valid, color.y, f32(background[1])).store(radiance_[1] + at);
-    select(valid, color.z, f32(background[2])).store(radiance_[2] + at);
+    select(s.valid, s.radiance.x, f32(background[0])).store(radiance_[0] + at);
+    select(s.valid, s.radiance.y, f32(background[1])).store(radiance_[1] + at);
+    select(s.valid, s.radiance.z, f32(background[2])).store(radiance_[2] + at);
+    if (frame_.plan.depths) select(s.valid, s.t, f32(std::numeric_limits<float>::infinity())).store(t_ + at);
   }
 
   const Frame& frame_;
   const HitBatch& hits_;
   float* const* const radiance_;
+  float* const t_;
   const int carried_lights_;  // flat and Gouraud: what triangles carry of them stands behind the planes,
   const int stride_;          // this far from vector to vector
   PlaneBlock planes_;
@@ -221,8 +227,8 @@ class DirectShader {
 }  // namespace
 
 // Contract: bits of resolve(), shade_ambient_kernel() and the kernels of light: the same functions of the same values.
-DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]) {
-  return DirectShader(frame, hits, planes, radiance).shade();
+DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3], float* t) {
+  return DirectShader(frame, hits, planes, radiance, t).shade();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -236,13 +242,12 @@ const ShadeDirectFn kShadeDirect[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_direct)
 
 bool can_shade_direct(const Frame& frame) {
   const PlanFlags& plan = frame.plan;
-  return !plan.shadow_rays && !plan.bounces && !plan.translucents && !plan.lifted_rays && !plan.depths && !plan.weights && !plan.surfaces &&
-         !frame.scene->has_exact() && !frame.scene->triangles.empty() &&
+  return !plan.shadow_rays && !plan.bounces && !plan.lifted_rays && !plan.weights && !plan.surfaces && !frame.scene->has_exact() && !frame.scene->triangles.empty() &&
          (frame.settings.shading == Shading::kPhong || triangles_carry_light(frame));
 }
 
-DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3]) {
-  return kShadeDirect[isa_index(frame.isa)](frame, hits, planes, radiance);
+DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3], float* t) {
+  return kShadeDirect[isa_index(frame.isa)](frame, hits, planes, radiance, t);
 }
 
 }  // namespace spanray

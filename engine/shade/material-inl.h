@@ -99,8 +99,8 @@ HWY_INLINE V3f bumped_normal(const Materials& g, const UvLanes& uv, V3f normal) 
   return normal;
 }
 
-// What the maps do to the constants of the materials.
-HWY_INLINE void apply_maps(const Materials& g, const UvLanes& uv, MaterialLanes& m) {
+// What the maps do to the constants of the materials. opacity: whether that of layers is wanted.
+HWY_INLINE void apply_maps(const Materials& g, const UvLanes& uv, MaterialLanes& m, bool opacity) {
   const SceneData& scene = *g.frame.scene;
   const PlanFlags& plan = g.frame.plan;
   if (plan.textures) modulate_colors(g, uv, m);
@@ -108,7 +108,7 @@ HWY_INLINE void apply_maps(const Materials& g, const UvLanes& uv, MaterialLanes&
     sample_map<4>(g, uv, kShininessSlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
       modulate(map.active, m.shininess, scalar_of(scene, map, raw), 1e4f);
     });
-  if (plan.translucents)
+  if (opacity)
     sample_map<4>(g, uv, kOpacitySlot, [&](const MapLanes& map, const RawSample& raw) HWY_ATTR {
       modulate(map.active, m.opacity, scalar_of(scene, map, raw), 1.0f);
     });

@@ -65,7 +65,7 @@ void store_material(const Frame& frame, const SurfaceBatch& out, int at, const H
   const Group g{{frame, lanes.valid, record_lanes(material, kMaterialStride, one_material), &plain, &sample}, out, at};
   if (frame.plan.bump) put(g, out.normal, clamp_to_horizon(bumped_normal(g, uv, get(g, out.normal)), get(g, out.geometric_normal)));
   MaterialLanes m = constants_of(g);
-  if (reads_textures(frame)) apply_maps(g, uv, m);
+  if (reads_textures(frame)) apply_maps(g, uv, m, frame.plan.translucents);
   put_material(g, m);
 }
 
