@@ -176,7 +176,8 @@ TEST(FrameTransparency, SettingsOverrideMaterials) {
     EXPECT_EQ(under(Transparency::kScene), c.scene);
     EXPECT_EQ(under(Transparency::kNone), c.none);
     EXPECT_EQ(under(Transparency::kAlpha), c.alpha);
-    EXPECT_EQ(material_flags(m, s) & (kMaterialMasked | kMaterialTranslucent), c.alpha == M::kAlpha ? kMaterialTranslucent : c.alpha == M::kOpaque ? 0u : kMaterialMasked);
+    EXPECT_EQ(material_flags(m, s) & (kMaterialMasked | kMaterialTranslucent),
+              c.alpha == M::kAlpha ? kMaterialTranslucent : c.alpha == M::kOpaque ? 0u : kMaterialMasked);
     EXPECT_EQ(under(Transparency::kScreenDoor), c.door);
   }
 }

@@ -29,7 +29,8 @@ enum MaterialMaps : uint32_t {
   kMapAmbient = 1, kMapDiffuse = 2, kMapSpecular = 4, kMapShininess = 8, kMapEmission = 16, kMapOpacity = 32, kAllMaps = 63
 };
 
-// What a material means in this frame: to visibility, where Settings::transparency may override the material's own wish, and to shading.
+// What a material means in this frame: to visibility, where Settings::transparency may override the
+// material's own wish, and to shading.
 enum MaterialFlags : uint32_t {
   kMaterialMasked = 1,       // accept(hit) decides: alpha mask (map_d) or screen-door
   kMaterialTranslucent = 2,  // blended by alpha after the opaque surfaces; not an occluder of shadow rays

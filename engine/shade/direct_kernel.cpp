@@ -242,7 +242,8 @@ const ShadeDirectFn kShadeDirect[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_direct)
 
 bool can_shade_direct(const Frame& frame) {
   const PlanFlags& plan = frame.plan;
-  return !plan.shadow_rays && !plan.bounces && !plan.lifted_rays && !plan.weights && !plan.surfaces && !frame.scene->has_exact() && !frame.scene->triangles.empty() &&
+  return !plan.shadow_rays && !plan.bounces && !plan.lifted_rays && !plan.weights && !plan.surfaces &&
+         !frame.scene->has_exact() && !frame.scene->triangles.empty() &&
          (frame.settings.shading == Shading::kPhong || triangles_carry_light(frame));
 }
 

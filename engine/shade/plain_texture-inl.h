@@ -18,9 +18,8 @@ namespace surface_lanes {
 // The texture of one use, level by level.
 struct PlainTexture {
   int32_t use = -1;      // in SceneData::texture_uses; -1: none so far
-  bool placed = false;   // neither scaled, moved nor clamped; else nothing below is set
-  bool plain = false;    // nor are its values remapped
-  bool heights = false;  // rows of heights can be read (scene/height_rows.h)
+  bool plain = false;    // its colors can be read
+  bool heights = false;  // its rows of heights can (scene/height_rows.h)
   float slope = 0;       // of heights: unit, gain and multiplier
   int32_t levels = 0;
   float width = 0, height = 0;
@@ -32,7 +31,8 @@ struct PlainTexture {
   void open(const SceneData& scene, int32_t index) {
     use = index;
     const TextureUse& u = scene.texture_uses[static_cast<size_t>(index)];
-    placed = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f && u.offset[0] == 0.0f && u.offset[1] == 0.0f;
+    const bool placed = u.texture > -1 && u.clamp == 0 && u.scale[0] == 1.0f && u.scale[1] == 1.0f &&
+                        u.offset[0] == 0.0f && u.offset[1] == 0.0f;
     plain = placed && u.base == 0.0f && u.gain == 1.0f, heights = false;
     if (!placed) return;
     const Texture& texture = scene.textures[static_cast<size_t>(u.texture)];
