@@ -28,6 +28,14 @@ size_t triangles_of_instances(const SceneData& scene) {
   return sum;
 }
 
+std::string trees_in_words(const RayTrees::Makeup& trees) {
+  if (trees.levels == 0) return "no ray is traced";
+  char size[32];
+  std::snprintf(size, sizeof size, ", %.1f MB", static_cast<double>(trees.bytes) * 1e-6);
+  if (trees.levels == 1) return std::string("rays: one tree over all copies") + size;
+  return "rays: a tree of two levels, shared by " + counted(trees.instances, "copy", "copies") + size;
+}
+
 void print_json(const Job& job, const std::string& path, const std::vector<PlanLine>& plan) {
   const SceneData& scene = job.scene.data();
   nlohmann::ordered_json out;
@@ -38,7 +46,8 @@ void print_json(const Job& job, const std::string& path, const std::vector<PlanL
     out["instances"] = {{"parts", scene.instanced_parts.size()},
                         {"places", scene.instances.size()},
                         {"triangles", triangles_of_instances(scene)}};
-    out["bvh_levels"] = tree_levels(scene, job.settings);
+    const RayTrees::Makeup trees = tree_makeup(scene, job.settings);
+    out["bvh_levels"] = trees.levels, out["bvh_instances"] = trees.instances, out["bvh_bytes"] = trees.bytes;
   }
   if (!scene.spheres.empty()) out["spheres"] = scene.spheres.size();
   if (!scene.planes.empty()) out["planes"] = scene.planes.size();
@@ -65,12 +74,10 @@ void print_text(const Job& job, const std::string& path, const std::vector<PlanL
   std::printf("%-12s %s\n", "scene_hash", hash_text(job.scene.hash()).c_str());
   number("triangles", scene.triangles.size());
   if (!scene.instances.empty()) {
-    static constexpr const char* kTrees[] = {"no ray is traced", "rays: one tree over all copies",
-                                             "rays: a tree of two levels"};
     std::printf("%-12s %s of %s, %s; %s\n", "instances", counted(scene.instances.size(), "copy", "copies").c_str(),
                 counted(scene.instanced_parts.size(), "part", "parts").c_str(),
                 counted(triangles_of_instances(scene), "triangle", "triangles").c_str(),
-                kTrees[tree_levels(scene, job.settings)]);
+                trees_in_words(tree_makeup(scene, job.settings)).c_str());
   }
   if (!scene.spheres.empty()) number("spheres", scene.spheres.size());
   if (!scene.planes.empty()) number("planes", scene.planes.size());

@@ -22,13 +22,15 @@ TEST_F(ProgramInfo, CountsCopiesAndExactPrimitives) {
   const Ran text = run({"info", henge_});
   EXPECT_EQ(0, text.code) << text.error;
   EXPECT_NE(std::string::npos,
-            text.out.find("instances    14 copies of 1 part, 2632 triangles; rays: one tree over all copies\n"))
+            text.out.find("instances    14 copies of 1 part, 2632 triangles; rays: one tree over all copies, 0.1 MB\n"))
       << text.out;
   EXPECT_NE(std::string::npos, text.out.find("spheres      3\nplanes       2\n")) << text.out;
   EXPECT_NE(std::string::npos, text.out.find("2 planes: exact rays up to the horizon")) << text.out;
   const Json json = Json::parse(run({"info", henge_, "--json"}).out, nullptr, false);
   EXPECT_EQ(Json::parse(R"({"parts": 1, "places": 14, "triangles": 2632})"), json["instances"]);
   EXPECT_EQ(1, json["bvh_levels"].get<int>());
+  EXPECT_EQ(0, json["bvh_instances"].get<int>());
+  EXPECT_GT(json["bvh_bytes"].get<int>(), 100'000);
   EXPECT_EQ(3, json["spheres"].get<int>());
   EXPECT_EQ(2, json["planes"].get<int>());
   const Ran no_rays = run({"info", henge_, "--shadows", "none", "--reflections", "none"});
@@ -38,17 +40,21 @@ TEST_F(ProgramInfo, CountsCopiesAndExactPrimitives) {
     EXPECT_EQ(std::string::npos, plain.out.find(word)) << word << plain.out;
 }
 
-TEST_F(ProgramInfo, StatisticsSayHowManyLevelsTheTreeHad) {
-  const auto levels = [&](std::vector<std::string> more) {
+TEST_F(ProgramInfo, StatisticsSayWhichTreesAFrameHad) {
+  const int bytes = Json::parse(run({"info", henge_, "--json"}).out, nullptr, false)["bvh_bytes"].get<int>();
+  const auto trees = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"render", henge_, "--size", "64x36", "--stats", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Ran ran = run(arguments);
     const Json stats = Json::parse(ran.out, nullptr, false);
     EXPECT_TRUE(stats.is_object()) << ran.out << ran.error;
-    return stats.is_object() ? stats["counts"]["bvh_levels"].get<int>() : -1;
+    std::vector<int> got;
+    for (const char* what : {"bvh_levels", "bvh_instances", "bvh_bytes"})
+      got.push_back(stats.is_object() ? stats["counts"][what].get<int>() : -1);
+    return got;
   };
-  EXPECT_EQ(1, levels({}));
-  EXPECT_EQ(0, levels({"--shadows", "none", "--reflections", "none"}));
+  EXPECT_EQ((std::vector<int>{1, 0, bytes}), trees({}));
+  EXPECT_EQ((std::vector<int>{0, 0, 0}), trees({"--shadows", "none", "--reflections", "none"}));
 }
 
 TEST_F(ProgramInfo, WhyShowsThePlane) {

@@ -27,7 +27,7 @@ struct Tally {
 
 // One sweep against brute force (the same bits) and against the oracle (no later, and not in anything).
 void check_sweep(const TestFrame& t, const Bvh& bvh, const glm::dvec3& start, const glm::dvec3& end, double radius, Tally& tally) {
-  const SphereHit got = sweep_sphere(bvh, start, end, radius), plain = brute_force_sweep(t.scene, start, end, radius);
+  const SphereHit got = sweep_sphere(t.scene, bvh, start, end, radius), plain = brute_force_sweep(t.scene, start, end, radius);
   ASSERT_EQ(plain.primitive, got.primitive);
   ASSERT_EQ(plain.contact.time, got.contact.time);
   if (mesh_distance(t.scene, Long3(start)) <= static_cast<long double>(radius)) return void(++tally.inside);
@@ -102,7 +102,7 @@ TEST(RaySweep, NothingPassesACornerOrAnEdgeHoweverFast) {
       const double far = std::pow(10.0, random.uniform(0.5, 7)), radius = scale * std::pow(10.0, random.uniform(-7, -1));
       const glm::dvec3 outside = target + normalize3(target + direction * (0.3 * scale), target) * (scale * far);
       const glm::dvec3 beyond = target + (target - outside) * random.uniform(0.05, 1e3);
-      const SphereHit hit = sweep_sphere(bvh, outside, beyond, radius);
+      const SphereHit hit = sweep_sphere(t->scene, bvh, outside, beyond, radius);
       ASSERT_NE(kNoPrimitive, hit.primitive) << "through the mesh: ray " << i << " radius " << radius;
       const Long3 center = Long3(outside) + (Long3(beyond) - Long3(outside)) * static_cast<long double>(hit.contact.time);
       ASSERT_GE(static_cast<double>(length3(center)), 0.8 * scale) << "it is inside";
@@ -118,22 +118,22 @@ std::vector<SoupTriangle> floor_soup() {  // y = 0, |x| and |z| <= 10
 TEST(RaySweep, KnownContacts) {
   auto t = frame_of(floor_soup());
   const Bvh bvh = build_all(*t);
-  const SphereHit face = sweep_sphere(bvh, {3, 5, 1}, {3, -5, 1}, 0.5);
+  const SphereHit face = sweep_sphere(t->scene, bvh, {3, 5, 1}, {3, -5, 1}, 0.5);
   EXPECT_NEAR(0.45, face.contact.time, 1e-13);
   EXPECT_NEAR(1, face.contact.normal.y, 1e-13);
   EXPECT_NEAR(-5, face.contact.point.y, 1e-12);
-  const SphereHit below = sweep_sphere(bvh, {3, -5, 1}, {3, 5, 1}, 0.5);
+  const SphereHit below = sweep_sphere(t->scene, bvh, {3, -5, 1}, {3, 5, 1}, 0.5);
   EXPECT_NEAR(-1, below.contact.normal.y, 1e-13) << "both sides stop it";
-  const SphereHit edge = sweep_sphere(bvh, {15, 0, 1}, {5, 0, 1}, 0.5);
+  const SphereHit edge = sweep_sphere(t->scene, bvh, {15, 0, 1}, {5, 0, 1}, 0.5);
   EXPECT_NEAR(0.45, edge.contact.time, 1e-13);
   EXPECT_NEAR(1, edge.contact.normal.x, 1e-13);
-  const SphereHit corner = sweep_sphere(bvh, {20, 10, 20}, {0, -10, 0}, 1);
+  const SphereHit corner = sweep_sphere(t->scene, bvh, {20, 10, 20}, {0, -10, 0}, 1);
   EXPECT_NEAR(length3(corner.contact.normal - normalize3(glm::dvec3(1, 1, 1), glm::dvec3(0))), 0, 1e-7);
   EXPECT_NEAR((std::sqrt(300.0) - 1) / std::sqrt(1200.0), corner.contact.time, 1e-13);
-  EXPECT_EQ(kNoPrimitive, sweep_sphere(bvh, {3, 0.5 + 1e-9, 1}, {-9, 0.5 + 1e-9, 1}, 0.5).primitive) << "along the floor, just above it";
-  EXPECT_EQ(kNoPrimitive, sweep_sphere(bvh, {3, 1, 1}, {3, 0.5 + 1e-9, 1}, 0.5).primitive) << "down to just above it";
-  EXPECT_NE(kNoPrimitive, sweep_sphere(bvh, {3, 1, 1}, {3, 0.5, 1}, 0.5).primitive) << "down to it";
-  EXPECT_EQ(kNoPrimitive, sweep_sphere(bvh, {30, 0.2, 1}, {30, 0.2, 400}, 0.5).primitive);
+  EXPECT_EQ(kNoPrimitive, sweep_sphere(t->scene, bvh, {3, 0.5 + 1e-9, 1}, {-9, 0.5 + 1e-9, 1}, 0.5).primitive) << "along the floor, just above it";
+  EXPECT_EQ(kNoPrimitive, sweep_sphere(t->scene, bvh, {3, 1, 1}, {3, 0.5 + 1e-9, 1}, 0.5).primitive) << "down to just above it";
+  EXPECT_NE(kNoPrimitive, sweep_sphere(t->scene, bvh, {3, 1, 1}, {3, 0.5, 1}, 0.5).primitive) << "down to it";
+  EXPECT_EQ(kNoPrimitive, sweep_sphere(t->scene, bvh, {30, 0.2, 1}, {30, 0.2, 400}, 0.5).primitive);
 }
 
 TEST(RaySweep, WhatTouchesAtTheStartStopsOnlyWhoMovesTowardsIt) {
@@ -141,11 +141,11 @@ TEST(RaySweep, WhatTouchesAtTheStartStopsOnlyWhoMovesTowardsIt) {
   const Bvh bvh = build_all(*t);
   for (const double height : {0.5, 0.4, 1e-3}) {  // touching, then deeper and deeper in it
     const glm::dvec3 start(1, height, 2);
-    const SphereHit towards = sweep_sphere(bvh, start, start + glm::dvec3(1, -1e-3, 0), 0.5);
+    const SphereHit towards = sweep_sphere(t->scene, bvh, start, start + glm::dvec3(1, -1e-3, 0), 0.5);
     EXPECT_EQ(0, towards.contact.time);
     EXPECT_NE(kNoPrimitive, towards.primitive) << height;
-    EXPECT_EQ(kNoPrimitive, sweep_sphere(bvh, start, start + glm::dvec3(0.1, 0, 0), 0.5).primitive) << "along";
-    EXPECT_EQ(kNoPrimitive, sweep_sphere(bvh, start, start + glm::dvec3(0, 1e-6, 0), 0.5).primitive) << "out of it";
+    EXPECT_EQ(kNoPrimitive, sweep_sphere(t->scene, bvh, start, start + glm::dvec3(0.1, 0, 0), 0.5).primitive) << "along";
+    EXPECT_EQ(kNoPrimitive, sweep_sphere(t->scene, bvh, start, start + glm::dvec3(0, 1e-6, 0), 0.5).primitive) << "out of it";
   }
 }
 
@@ -155,7 +155,7 @@ TEST(RaySweep, TrianglesWithoutAreaAndNeedlesStopSpheres) {
   auto t = frame_of(soup);
   const Bvh bvh = build_all(*t);
   for (const double height : {0.0, 5.0, -5.0}) {
-    const SphereHit hit = sweep_sphere(bvh, {0, height, -4}, {0, height, 4}, 0.25);
+    const SphereHit hit = sweep_sphere(t->scene, bvh, {0, height, -4}, {0, height, 4}, 0.25);
     ASSERT_NE(kNoPrimitive, hit.primitive) << height;
     EXPECT_NEAR(3.75 / 8, hit.contact.time, 1e-12);
   }
@@ -178,7 +178,7 @@ TEST(RaySweep, TouchingFindsWhatIsNearAndNothingElse) {
   for (int i = 0; i < 300; ++i) {
     const glm::dvec3 center = random_point(random, 1.2);
     const double radius = random.uniform(0, 0.6);
-    const std::vector<SphereHit> hits = touch_sphere(bvh, center, radius);
+    const std::vector<SphereHit> hits = touch_sphere(t->scene, bvh, center, radius);
     std::vector<bool> listed(soup.size(), false);
     for (size_t k = 0; k < hits.size(); ++k) {
       ASSERT_FALSE(listed[hits[k].primitive]);

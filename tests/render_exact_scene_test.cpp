@@ -39,10 +39,10 @@ TEST_F(RenderExactScene, HasAllKinds) {
   for (const Triangle& t : data.triangles) paved += lies_in(data, t, data.planes[0]);
   EXPECT_EQ(paved, 40u) << "the pavement lies in the ground's plane exactly";
   EXPECT_LT(data.bounds_max[0], 5) << "planes have no bounds";
-  EXPECT_EQ(tree_levels(data, settings_), 1);
+  EXPECT_EQ(tree_makeup(data, settings_).levels, 1);
   Settings no_rays = settings_;
   no_rays.shadows = Shadows::kNone, no_rays.reflections = Reflections::kNone;
-  EXPECT_EQ(tree_levels(data, no_rays), 0);
+  EXPECT_EQ(tree_makeup(data, no_rays).levels, 0);
   Renderer renderer;
   Framebuffer out;
   const Result<FrameStats> stats = renderer.render(scene_, scene_.cameras()[0], settings_, out, {});

@@ -20,6 +20,8 @@ class Bvh {
   const Data& data() const { return *data_; }
   size_t memory_bytes() const;
   size_t primitive_count() const;
+  int levels() const;             // 2 where parts of instances have trees of their own
+  size_t instance_count() const;  // that stand in those
 
  private:
   friend class BvhRefit;  // ray/bvh_refit.h

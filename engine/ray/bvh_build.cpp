@@ -67,6 +67,8 @@ size_t Bvh::memory_bytes() const {
   const size_t instances = data_->instances ? data_->instances->memory_bytes() : 0;
   return data_->nodes.bytes() + data_->blocks.bytes() + data_->exact.memory_bytes() + instances;
 }
+int Bvh::levels() const { return data_->instances ? 2 : 1; }
+size_t Bvh::instance_count() const { return data_->instances ? data_->instances->placed.size() : 0; }
 size_t Bvh::primitive_count() const { return data_->primitives + data_->exact.size(); }
 
 Bvh build_bvh(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel,

@@ -12,7 +12,7 @@ using bvh::Box;
 using bvh::box_of;
 using bvh::F4;
 
-// Boxes of leaves grow by this times kPartMargin of a triangle's extent, at most. Rotations and uniform scales need 3.
+// Boxes of leaves grow by this times kPartMargin of a triangle's extent, at most. Rotations and uniform scales need 3. Spheres count on it, too (PlacedPart).
 constexpr double kMostStretch = 16;
 // Boxes grow by at most this share of the part's extent on the way of a ray: the whole part is that much larger.
 constexpr double kMostSlack = 1.0 / 64;
@@ -226,10 +226,6 @@ size_t InstanceTrees::memory_bytes() const {
   size_t bytes = top.bytes() + placed.capacity() * sizeof(PlacedPart) + ranges.capacity() * sizeof(TriangleRange);
   for (const SingleTree& part : parts) bytes += part.bytes();
   return bytes;
-}
-
-bool worth_two_levels(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel) {
-  return !choose_places(scene, material_flags, mask, value, parallel, InstanceUse::kAuto).empty();
 }
 
 std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,

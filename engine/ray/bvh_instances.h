@@ -38,6 +38,11 @@ using SingleTree = AlignedBuffer<BvhNode>;
 // * The triangle's extent is at most |M| times that in part space (largest row sums). Boxes of triangles are grown by `stretch` * kPartMargin of that, which is twice
 //   what is needed. All else is `slack`, by which boxes grow as a ray meets them, along each axis of the part.
 // slab() then rounds as it does elsewhere. What `slack` is made of is rounded up by far more than rounding in double.
+//
+// No touch of a sphere of radius R is lost (ray/sweep.cpp). When first_contact() accepts, its center c = s + t m is within R + e of a point q as
+// above, e < 2^-44 (R + |q - s|). Along axis k of the part, |A_k (q - c)| <= |A_k| (R + e), A_k the row, in the Euclidean norm: boxes
+// grow by |A_k| R and by `slack`. What remains, |A_k| e and the rounding of A (s - b) and of A m, is below 2^-43 |A| (R + |s - b|);
+// as |A| |M| <= 16, that is below 2^-39 of (the largest |A_k| R + the largest coordinate of A (s - b)), and kSlack there is 2^-38.
 struct PlacedPart {
   double part_from_world[3][3];
   double offset[3];
@@ -62,8 +67,5 @@ struct InstanceTrees {
 // or so far out that boxes would have to grow much stay out. The bytes depend on the scene only, never on threads.
 std::shared_ptr<const InstanceTrees> build_instances(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value,
                                                      Parallel& parallel, TreeQuality quality, InstanceUse use);
-
-// Whether build_instances() with kAuto would give trees. Builds none.
-bool worth_two_levels(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value, Parallel& parallel);
 
 }  // namespace spanray

@@ -1,4 +1,4 @@
-// Spheres against the tree: moved along a segment, or at rest.
+// Spheres against the tree, of one level or two: moved along a segment, or at rest.
 #pragma once
 #include <vector>
 
@@ -14,10 +14,11 @@ struct SphereHit {
 };
 
 // The first triangle, or sphere of the scene, that a sphere touches on its way from `start` to `end` (first_contact(): all
-// its promises hold), ties to the lowest primitive; kNoPrimitive if none. Depends on these only, not on the tree. start != end, radius > 0, all at most 1e30.
-SphereHit sweep_sphere(const Bvh& bvh, const glm::dvec3& start, const glm::dvec3& end, double radius);
+// its promises hold), ties to the lowest primitive; kNoPrimitive if none. Depends on these only, not on the tree.
+// scene: what the tree was built of. start != end, radius > 0, all at most 1e30.
+SphereHit sweep_sphere(const SceneData& scene, const Bvh& bvh, const glm::dvec3& start, const glm::dvec3& end, double radius);
 
 // Every triangle and sphere at most `radius` away from `center`, nearest first, ties by primitive. contact.time is 0.
-std::vector<SphereHit> touch_sphere(const Bvh& bvh, const glm::dvec3& center, double radius);
+std::vector<SphereHit> touch_sphere(const SceneData& scene, const Bvh& bvh, const glm::dvec3& center, double radius);
 
 }  // namespace spanray

@@ -1,4 +1,4 @@
-// Questions outside of frames: one tree over all triangles, asked by the tracer of frames (rays) and by ray/sweep.h (spheres).
+// Questions outside of frames: one tree over all triangles (of two levels where frames would have them), asked by the tracer of frames (rays) and by ray/sweep.h (spheres).
 #include "spanray/query.h"
 
 #include <cmath>
@@ -129,7 +129,7 @@ struct SceneQuery::Impl {
     frame.material_flags = for_rays.data();
     frame.accept_rays = accept_asked;
     Parallel all(0);
-    bvh = build_bvh(data, solid.data(), 0, 0, all, TreeQuality::kFast, false, InstanceUse::kNever);  // ray/sweep.h knows one level
+    bvh = build_bvh(data, solid.data(), 0, 0, all, TreeQuality::kFast);
   }
 
   Frame frame_for(const std::vector<uint32_t>& flags) const {
@@ -245,6 +245,14 @@ Result<void> SceneQuery::prepare() const {
   return guarded([&] { return impl_->prepare(); });
 }
 
+Result<QueryTree> SceneQuery::tree() const {
+  return guarded([&]() -> Result<QueryTree> {
+    if (auto ready = impl_->prepare(); !ready) return ready.error();
+    const Bvh& bvh = impl_->bvh;
+    return QueryTree{bvh.levels(), bvh.instance_count(), bvh.memory_bytes()};
+  });
+}
+
 Result<std::optional<RayHit>> SceneQuery::closest(const Ray& ray) const {
   if (const char* fault = fault_of(ray)) return Error{std::string("the ray: ") + fault};
   Result<std::vector<std::optional<RayHit>>> hits = closest({&ray, 1});
@@ -318,7 +326,7 @@ Result<std::optional<SweepHit>> SceneQuery::sweep(const SphereSweep& sphere) con
     if (!(length > kLeastWay)) return Error{"the sphere: its start and end coincide"};
     if (auto ready = impl_->prepare(); !ready) return ready.error();
     if (sphere.radius == 0) return impl_->sweep_ray(start, motion);
-    const SphereHit first = sweep_sphere(impl_->bvh, start, end, sphere.radius);
+    const SphereHit first = sweep_sphere(impl_->scene.data(), impl_->bvh, start, end, sphere.radius);
     if (first.primitive == kNoPrimitive) return std::optional<SweepHit>();
     SweepHit hit;
     hit.name = impl_->name_of(first.primitive);
@@ -335,7 +343,7 @@ Result<std::vector<SphereTouch>> SceneQuery::touching(const double (&center)[3],
     if (const char* fault = fault_of(center, radius)) return Error{std::string("the sphere: ") + fault};
     if (auto ready = impl_->prepare(); !ready) return ready.error();
     std::vector<SphereTouch> touches;
-    for (const SphereHit& hit : touch_sphere(impl_->bvh, to_dvec(center), radius)) {
+    for (const SphereHit& hit : touch_sphere(impl_->scene.data(), impl_->bvh, to_dvec(center), radius)) {
       SphereTouch touch;
       touch.name = impl_->name_of(hit.primitive);
       touch.distance = hit.distance;

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "core/timed.h"
-#include "ray/bvh_data.h"
-#include "ray/bvh_instances.h"
 
 namespace spanray {
 
@@ -41,21 +39,19 @@ RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQu
   return work;
 }
 
-int RayTrees::levels() const {
-  int most = 0;
+RayTrees::Makeup RayTrees::makeup() const {
+  Makeup all;
   for (const Tree* tree : {&opaque_, &translucent_})
-    if (tree->bvh) most = std::max(most, tree->bvh->data().instances ? 2 : 1);
-  return most;
+    if (tree->bvh) all.levels = std::max(all.levels, tree->bvh->levels()), all.instances += tree->bvh->instance_count();
+  all.bytes = memory_bytes();
+  return all;
 }
 
-int tree_levels(const SceneData& scene, const Settings& settings) {
-  const Plan plan = make_plan(scene, find_scene_use(scene), settings);
+RayTrees::Makeup tree_makeup(const SceneData& scene, const Settings& settings) {
   Parallel parallel(settings.threads);
-  const auto two = [&](bool needed, uint32_t value) {
-    return needed && worth_two_levels(scene, plan.material_flags.data(), kMaterialTranslucent, value, parallel);
-  };
-  if (!plan.flags.bvh && !plan.flags.translucent_bvh) return 0;
-  return two(plan.flags.bvh, 0) || two(plan.flags.translucent_bvh, kMaterialTranslucent) ? 2 : 1;
+  RayTrees trees;
+  trees.update(scene, make_plan(scene, find_scene_use(scene), settings), settings.tree, scene.moving_triangles, 0, parallel);
+  return trees.makeup();
 }
 
 size_t RayTrees::memory_bytes() const {

@@ -29,7 +29,13 @@ class RayTrees {
   const Bvh* translucent() const { return translucent_.bvh.get(); }
   double build_ms() const { return opaque_.build_ms + translucent_.build_ms; }  // of the trees that are there
   size_t memory_bytes() const;
-  int levels() const;  // of the tree that has most: 2 where parts of instances have their own; 0: there is none
+  // What the trees are made of.
+  struct Makeup {
+    int levels = 0;       // of the tree that has most: 2 where parts of instances have their own; 0: there is none
+    size_t instances = 0; // that stand in trees of two levels: once in each
+    size_t bytes = 0;
+  };
+  Makeup makeup() const;
 
   // A choice, not a measured optimum: a build costs as much as 25 refits of the shipped moving scene (docs/decisions/0011-motion.md).
   static constexpr double kMostCost = 1.5;
@@ -46,7 +52,7 @@ class RayTrees {
   Tree opaque_, translucent_;
 };
 
-// RayTrees::levels() of a frame, before anything is built: of rays against the scene at rest.
-int tree_levels(const SceneData& scene, const Settings& settings);
+// Of the trees of a frame. Builds them, of the scene at rest, and drops them again.
+RayTrees::Makeup tree_makeup(const SceneData& scene, const Settings& settings);
 
 }  // namespace spanray

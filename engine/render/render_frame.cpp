@@ -134,8 +134,11 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   counts.bvh_refits = followed.refits, counts.bvh_rebuilds = followed.rebuilds;
   add_worker_stats(workers, parallel->threads(), counts, stats);
   add_counts(counts, stats);
-  const bool traced = plan.flags.bvh || plan.flags.translucent_bvh;
-  stats.counts.emplace_back("bvh_levels", traced ? static_cast<uint64_t>(trees.levels()) : 0);
+  // Trees of frames before may be there, though this one asks none.
+  const RayTrees::Makeup traced = plan.flags.bvh || plan.flags.translucent_bvh ? trees.makeup() : RayTrees::Makeup();
+  stats.counts.emplace_back("bvh_levels", static_cast<uint64_t>(traced.levels));
+  stats.counts.emplace_back("bvh_instances", traced.instances);
+  stats.counts.emplace_back("bvh_bytes", traced.bytes);
   stats.memory_bytes = memory_bytes();
   stats.isa = isa_name(frame.isa);
   stats.threads = parallel->threads();

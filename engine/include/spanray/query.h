@@ -60,6 +60,13 @@ struct SphereTouch {
   double normal[3] = {0, 0, 0};  // unit, from there to the center; 0 if the center lies on the triangle or plane
 };
 
+// The tree by which a scene is asked.
+struct QueryTree {
+  int levels = 1;          // 2: copies of instances share the trees of their parts, where they are many
+  uint64_t instances = 0;  // that do
+  uint64_t bytes = 0;
+};
+
 struct QueryOptions {
   bool cutouts = true;      // alpha masks (map_d) let rays through, as in frames; false: they are solid
   bool translucent = true;  // rays meet surfaces that frames blend by alpha; false: they pass through
@@ -78,6 +85,7 @@ class SceneQuery {
   explicit SceneQuery(Scene scene, const QueryOptions& options = {});
 
   Result<void> prepare() const;  // builds the tree now, on all processors
+  Result<QueryTree> tree() const;  // builds it, too, if it is not there yet
 
   // The first triangle that a ray meets, if any. Masks are read at their finest level; screen-door surfaces are solid.
   // Errors: a direction that is zero or not finite, an origin that is not finite, t_min or t_max negative or NaN, t_min > t_max.
