@@ -5,24 +5,10 @@
 
 #include "core/aligned.h"
 #include "ray/bvh.h"
+#include "ray/bvh_node.h"
 #include "ray/exact_set.h"
 
 namespace spanray {
-
-inline constexpr int kBvhWidth = 8;       // children of a node, triangles of a leaf block
-inline constexpr int kBvhMaxDepth = 64;   // nodes on any path from the root
-inline constexpr int kBvhStackSize = kBvhMaxDepth * (kBvhWidth - 1) + 1;
-
-// Boxes of eight children as arrays. Unused slots hold the empty box (+inf, -inf), which every ray misses.
-struct alignas(64) BvhNode {
-  float bounds[6][kBvhWidth];  // min x, y, z, max x, y, z
-  uint32_t child[kBvhWidth];   // kLeafBit | block << 3 | (triangles - 1), or the index of a node
-};
-inline constexpr uint32_t kLeafBit = 0x80000000u;
-inline uint32_t leaf_child(uint32_t block, uint32_t triangles) { return kLeafBit | block << 3 | (triangles - 1); }
-inline uint32_t leaf_block(uint32_t child) { return (child & ~kLeafBit) >> 3; }
-inline uint32_t leaf_triangles(uint32_t child) { return (child & 7) + 1; }
-inline uint32_t leaf_lanes(uint32_t child) { return (2u << (child & 7)) - 1; }  // bits of the triangles in their block
 
 // A leaf: one to eight triangles, vertices in the canonical order of the scene. Unused lanes are zero.
 struct alignas(64) TriangleBlock {

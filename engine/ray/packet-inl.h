@@ -198,6 +198,28 @@ struct PacketEntry {
   uint32_t child;
 };
 
+// Pushes the children that rays meet, so that the nearest of the first such ray is popped first. Returns the new top.
+template <bool kMixed> HWY_INLINE int push_nearest(const RayPacket& p, const BvhNode& node, const Beam& beam, PacketEntry* stack, int top) {
+  float key[kBvhWidth];
+  const int bottom = top;
+  for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
+    const int c = std::countr_zero(rest);
+    const LaneBox box = box_lanes<kMixed>(p, node, c);
+    const uint32_t bits = to_bits(box.meets) & p.valid;
+    if (bits == 0) continue;
+    const F32 entry = select(box.meets, box.near, f32(std::numeric_limits<float>::infinity()));
+    alignas(64) float lanes_near[kLanes];
+    entry.store(lanes_near);
+    const float nearest = lanes_near[std::countr_zero(bits)];
+    int at = top++;
+    for (; at > bottom && key[at - 1 - bottom] < nearest; --at) stack[at] = stack[at - 1], key[at - bottom] = key[at - 1 - bottom];
+    entry.store(stack[at].near);
+    stack[at].child = node.child[c];
+    key[at - bottom] = nearest;
+  }
+  return top;
+}
+
 // Of each ray the closest hit so far: most are known only by bounds on their t, which is enough to order nearly all of them.
 struct ClosestPacket : PacketTask {
   alignas(64) double best_t[kLanes];   // t_max until something is hit; no less than t where it is not known
@@ -285,28 +307,6 @@ struct ClosestPacket : PacketTask {
     }
   }
 
-  // Pushes the children that rays meet, so that the nearest of the first such ray is popped first.
-  template <bool kMixed> HWY_INLINE int push_children(const BvhNode& node, const Beam& beam, PacketEntry* stack, int top) {
-    float key[kBvhWidth];
-    const int bottom = top;
-    for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
-      const int c = std::countr_zero(rest);
-      const LaneBox box = box_lanes<kMixed>(p, node, c);
-      const uint32_t bits = to_bits(box.meets) & p.valid;
-      if (bits == 0) continue;
-      const F32 entry = select(box.meets, box.near, f32(std::numeric_limits<float>::infinity()));
-      alignas(64) float lanes_near[kLanes];
-      entry.store(lanes_near);
-      const float nearest = lanes_near[std::countr_zero(bits)];
-      int at = top++;
-      for (; at > bottom && key[at - 1 - bottom] < nearest; --at) stack[at] = stack[at - 1], key[at - bottom] = key[at - 1 - bottom];
-      entry.store(stack[at].near);
-      stack[at].child = node.child[c];
-      key[at - bottom] = nearest;
-    }
-    return top;
-  }
-
   template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
     PacketEntry stack[kBvhStackSize];
     F32::zero().store(stack[0].near);
@@ -318,7 +318,7 @@ struct ClosestPacket : PacketTask {
       if (active == 0) continue;
       if (std::popcount(active) <= kFewRays) alone(child, entry.near, active);
       else if ((child & kLeafBit) != 0) leaf(child, active, beam);
-      else top = push_children<kMixed>(data.nodes[child], beam, stack, top);
+      else top = push_nearest<kMixed>(p, data.nodes[child], beam, stack, top);
     }
   }
 };

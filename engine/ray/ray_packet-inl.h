@@ -161,26 +161,35 @@ HWY_INLINE ShearLanes exact_shear(const RayPacket& p) {
   return {to_f64(p.along_x) / z, to_f64(p.along_y) / z};
 }
 
-// Rays first to first + n - 1 of the batch; p.valid is 0 if none is a ray.
-// Contract: with u = 2^-24 and M the largest distance along an axis from the origin to a vertex, x and y in lanes are off by at most
-//           7 u M from those in double, so x1 * y2 - y1 * x2 is off by at most 40 u M (|x1| + |y1| + |x2| + |y2| + 4 u M).
-HWY_INLINE void prepare_packet(const Bvh::Data& data, const RayBatch& rays, int first, int n, RayPacket& p) {
-  RawRays r = load_raw(rays, first, n);
+// Rays first to first + n - 1 of the batch, without what only triangles need: shears, axes of lanes, errors of edges. p.valid is 0 if
+// none is a ray.
+HWY_INLINE void prepare_rays(const RayBatch& rays, int first, int n, RayPacket& p, RawRays& r, ScaleLanes& scales) {
+  r = load_raw(rays, first, n);
   p.valid = mend_raw(r);
   if (p.valid == 0) return;
   load_from(rays, first, n, p);
-  const ScaleLanes scales = scale_of(to_f64(r.largest));
-  const F64 scale = scales.to_one;
+  scales = scale_of(to_f64(r.largest));
   p.t_max = to_f64(r.t_max) * scales.size;  // a power of two: exact, as the division
   p.limit = round_up_lanes(p.t_max);
   p.mixed_axes = 0;
-  F32 m = F32::zero();
   for (int k = 0; k < 3; ++k) {
     p.origin[k] = r.origin[k];
-    prepare_axis(p, k, r.direction[k], to_f64(r.direction[k]) * scale);
-    m = cull_max(m, cull_max(abs_(f32(data.bounds_min[k]) - r.origin[k]), abs_(f32(data.bounds_max[k]) - r.origin[k])));
+    prepare_axis(p, k, r.direction[k], to_f64(r.direction[k]) * scales.to_one);
   }
-  prepare_shear(p, r, scale);
+}
+
+// The whole of it.
+// Contract: with u = 2^-24 and M the largest distance along an axis from the origin to a vertex, x and y in lanes are off by at most
+//           7 u M from those in double, so x1 * y2 - y1 * x2 is off by at most 40 u M (|x1| + |y1| + |x2| + |y2| + 4 u M).
+HWY_INLINE void prepare_packet(const Bvh::Data& data, const RayBatch& rays, int first, int n, RayPacket& p) {
+  RawRays r;
+  ScaleLanes scales;
+  prepare_rays(rays, first, n, p, r, scales);
+  if (p.valid == 0) return;
+  F32 m = F32::zero();
+  for (int k = 0; k < 3; ++k)
+    m = cull_max(m, cull_max(abs_(f32(data.bounds_min[k]) - r.origin[k]), abs_(f32(data.bounds_max[k]) - r.origin[k])));
+  prepare_shear(p, r, scales.to_one);
   // Where products may overflow or lose bits to underflow, every lane goes to the exact test.
   const Mask in_range = (m > f32(1e-15f)) & (m < f32(1e18f));
   p.edge_slope = select(in_range, f32(2.4e-6f) * m, F32::zero());

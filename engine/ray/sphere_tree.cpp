@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/exact_hit.h"
-#include "ray/triangle_test.h"
+#include "ray/bvh_parts.h"
 
 namespace spanray {
 namespace {
 
-constexpr size_t kLeaf = 4;
-constexpr int kStack = 64;             // lists are halved: 2^24 spheres are 24 levels
-constexpr double kMargin = 0x1p-20;    // of a radius: far more than rounding moves a tangent's hits
-constexpr double kRounding = 0x1p-48;  // of distances to the planes of a box: four roundings
+using bvh::Box;
+using bvh::Range;
+using bvh::Ref;
+
+constexpr double kMargin = 0x1p-20;  // of a radius: far more than rounding moves a tangent's hits
+// Where splits by areas make too deep a tree: from here on ranges are halved by count, and 2^24 spheres need 21 levels more.
+constexpr int kSafeDepth = kBvhMaxDepth - 22;
 
 float round_out(double x, float direction) {
   const float f = static_cast<float>(x);
@@ -20,114 +22,84 @@ float round_out(double x, float direction) {
                        : (static_cast<double>(f) > x ? std::nextafterf(f, direction) : f);
 }
 
+Box sphere_box(const Sphere& s) {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  const double reach = static_cast<double>(s.radius) * (1 + kMargin);
+  float low[3], high[3];
+  for (int k = 0; k < 3; ++k) {
+    const double center = static_cast<double>(s.center[k]);
+    low[k] = round_out(center - reach, -kInf), high[k] = round_out(center + reach, kInf);
+  }
+  return bvh::box_of(low, high);
+}
+
+class Builder {
+ public:
+  Builder(const SceneData& scene, AlignedBuffer<Ref>& refs, AlignedBuffer<Ref>& second, SphereTree& tree)
+      : scene_(scene), splitter_(refs.data(), second.data(), nullptr), tree_(tree) {}
+
+  // Splits the largest part until there are eight. Returns the node's index.
+  uint32_t add_node(const Range& range, int depth) {
+    Range part[kBvhWidth] = {range};
+    bool whole[kBvhWidth] = {};  // it was not worth while to split it
+    int n = 1;
+    while (n < kBvhWidth) {
+      int largest = -1;
+      for (int i = 0; i < n; ++i)
+        if (!whole[i] && (largest < 0 || area(part[i]) > area(part[largest]))) largest = i;
+      if (largest < 0) break;
+      Range left, right;
+      whole[largest] = !splitter_.split(part[largest], depth >= kSafeDepth, left, right);
+      if (!whole[largest]) part[largest] = left, part[n++] = right;
+    }
+    const uint32_t index = static_cast<uint32_t>(tree_.nodes.size());
+    tree_.nodes.push_back(bvh::empty_node());
+    for (int i = 0; i < n; ++i) {
+      const uint32_t child = part[i].count() <= kBvhWidth ? add_leaf(part[i]) : add_node(part[i], depth + 1);
+      tree_.nodes[index].child[i] = child;
+      bvh::set_box(tree_.nodes[index], i, part[i].bounds.box);
+    }
+    return index;
+  }
+
+ private:
+  static float area(const Range& range) { return range.bounds.box.half_area(); }
+
+  uint32_t add_leaf(const Range& range) {
+    SphereBlock block{};
+    for (uint32_t i = 0; i < range.count(); ++i) {
+      const uint32_t primitive = splitter_.refs(range)[i].primitive();
+      const Sphere& sphere = scene_.sphere(primitive);
+      for (int k = 0; k < 3; ++k) block.center[k][i] = sphere.center[k];
+      block.radius[i] = sphere.radius, block.primitive[i] = primitive;
+    }
+    tree_.blocks.push_back(block);
+    return leaf_child(static_cast<uint32_t>(tree_.blocks.size()) - 1, range.count());
+  }
+
+  const SceneData& scene_;
+  const bvh::Splitter splitter_;
+  SphereTree& tree_;
+};
+
 }  // namespace
 
-SphereTree::SphereTree(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value) {
-  for (size_t i = 0; i < scene.spheres.size(); ++i)
-    if ((material_flags[scene.spheres[i].material] & mask) == value)
-      spheres_.push_back({scene.spheres[i], static_cast<uint32_t>(scene.triangles.size() + i)});
-  if (!spheres_.empty()) build(0, spheres_.size());
-}
-
-// Halves of equal number, along the longest axis of the centers.
-void SphereTree::build(size_t begin, size_t end) {
-  const size_t at = nodes_.size();
-  Node node{};
-  float least[3], most[3];
-  for (int k = 0; k < 3; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    least[k] = std::numeric_limits<float>::infinity(), most[k] = -least[k];
-    for (size_t i = begin; i < end; ++i) {
-      const Sphere& s = spheres_[i].sphere;
-      const double reach = s.radius * (1 + kMargin);
-      low = std::min(low, s.center[k] - reach), high = std::max(high, s.center[k] + reach);
-      least[k] = std::min(least[k], s.center[k]), most[k] = std::max(most[k], s.center[k]);
-    }
-    node.low[k] = round_out(low, -kLargestT), node.high[k] = round_out(high, kLargestT);
+SphereTree build_sphere_tree(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value) {
+  SphereTree tree;
+  AlignedBuffer<Ref> refs;
+  Range all;
+  for (size_t i = 0; i < scene.spheres.size(); ++i) {
+    if ((material_flags[scene.spheres[i].material] & mask) != value) continue;
+    Ref ref{sphere_box(scene.spheres[i])};
+    ref.set_primitive(static_cast<uint32_t>(scene.triangles.size() + i));
+    refs.push_back(ref), all.bounds.add(ref);
   }
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) {
-    nodes_[at].first = static_cast<uint32_t>(begin), nodes_[at].count = static_cast<uint32_t>(end - begin);
-    return;
-  }
-  int axis = 0;
-  for (int k = 1; k < 3; ++k)
-    if (most[k] - least[k] > most[axis] - least[axis]) axis = k;
-  const size_t middle = begin + (end - begin) / 2;
-  const auto item = [&](size_t i) { return spheres_.begin() + static_cast<ptrdiff_t>(i); };
-  std::nth_element(item(begin), item(middle), item(end), [axis](const Item& a, const Item& b) {
-    const float p = a.sphere.center[axis], q = b.sphere.center[axis];
-    return p != q ? p < q : a.primitive < b.primitive;
-  });
-  build(begin, middle);
-  nodes_[at].first = static_cast<uint32_t>(nodes_.size());
-  build(middle, end);
-}
-
-// visit(item, limit) for every sphere of the leaves that the ray meets within (.., limit], limit being t_max or less, near ones
-// first; true ends the walk.
-template <class Visit>
-void SphereTree::walk(const ExactRay& ray, const Visit& visit) const {
-  double limit = ray.t_max, inverse[3];
-  if (nodes_.empty()) return;
-  for (int k = 0; k < 3; ++k) inverse[k] = 1 / ray.direction[k];
-  const auto enters = [&](const Node& node, double& near) {
-    double far = limit;
-    near = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double low = node.low[k] - ray.origin[k], high = node.high[k] - ray.origin[k];
-      if (!std::isfinite(inverse[k])) {  // along the planes, or all but
-        if (ray.direction[k] == 0 && (low > 0 || high < 0)) return false;
-        continue;
-      }
-      const double first = (inverse[k] < 0 ? high : low) * inverse[k], last = (inverse[k] < 0 ? low : high) * inverse[k];
-      near = std::max(near, first - kRounding * std::fabs(first)), far = std::min(far, last + kRounding * std::fabs(last));
-    }
-    return near <= far;
-  };
-  struct Pending {
-    uint32_t node;
-    double near;
-  } stack[kStack];
-  int top = 0;
-  if (double near; enters(nodes_[0], near)) stack[top++] = {0, near};
-  while (top > 0) {
-    const Pending next = stack[--top];
-    if (next.near > limit) continue;
-    for (uint32_t at = next.node;;) {
-      const Node& node = nodes_[at];
-      if (node.count > 0) {
-        for (uint32_t i = node.first; i < node.first + node.count; ++i)
-          if (visit(spheres_[i], limit)) return;
-        break;
-      }
-      double near_left, near_right;
-      const bool left = enters(nodes_[at + 1], near_left), right = enters(nodes_[node.first], near_right);
-      if (!left && !right) break;
-      const bool left_first = left && (!right || near_left <= near_right);
-      if (left && right) stack[top++] = left_first ? Pending{node.first, near_right} : Pending{at + 1, near_left};
-      at = left_first ? at + 1 : node.first;
-    }
-  }
-}
-
-ExactMeeting SphereTree::closest(const ExactRay& ray) const {
-  ExactMeeting best;
-  walk(ray, [&](const Item& item, double& limit) {
-    const double t = first_hit(ray, item.sphere, item.primitive).t;
-    if (t <= limit && best.improve(item.primitive, t)) limit = t;
-    return false;
-  });
-  return best;
-}
-
-bool SphereTree::any(const ExactRay& ray) const {
-  bool found = false;
-  walk(ray, [&](const Item& item, double& limit) {
-    const double t = first_hit(ray, item.sphere, item.primitive).t;
-    return found = t <= limit && t != std::numeric_limits<double>::infinity();
-  });
-  return found;
+  tree.count = refs.size();
+  if (refs.empty()) return tree;
+  all.end = static_cast<uint32_t>(refs.size());
+  AlignedBuffer<Ref> second(refs.size());
+  Builder(scene, refs, second, tree).add_node(all, 1);
+  return tree;
 }
 
 }  // namespace spanray

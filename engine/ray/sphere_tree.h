@@ -1,60 +1,43 @@
-// Rays against spheres: a small tree of their own.
+// A tree of spheres for rays: the nodes of the triangles' tree (ray/bvh_data.h) over blocks of spheres.
 #pragma once
 #include <cstdint>
-#include <limits>
-#include <vector>
 
-#include "frame/frame.h"
+#include "core/aligned.h"
+#include "ray/bvh_node.h"
+#include "scene/scene_data.h"
 
 namespace spanray {
 
-struct ExactRay;  // frame/exact_hit.h
+// A leaf: one to eight spheres. Unused lanes are zero.
+struct alignas(64) SphereBlock {
+  float center[3][kBvhWidth], radius[kBvhWidth];
+  uint32_t primitive[kBvhWidth];
+};
 
-struct ExactMeeting {
-  uint32_t primitive = kNoPrimitive;
-  double t = std::numeric_limits<double>::infinity();
-  // The nearer of two, of equal ones the lowest primitive; infinity is no hit.
-  bool improve(uint32_t other, double other_t) {
-    if (!(other_t < t || (other_t == t && other < primitive)) || other_t == std::numeric_limits<double>::infinity())
-      return false;
-    primitive = other, t = other_t;
-    return true;
+struct SphereTree {
+  AlignedBuffer<BvhNode> nodes;  // the first is the root; none if there are no spheres. Boxes hold their spheres with a margin
+  AlignedBuffer<SphereBlock> blocks;
+  size_t count = 0;  // of spheres
+
+  // f(sphere, primitive) of each, in no order; the spheres' material is not set.
+  template <class F> void for_each(const F& f) const {
+    for (const BvhNode& node : nodes)
+      for (int c = 0; c < kBvhWidth; ++c)
+        if ((node.child[c] & kLeafBit) != 0) for_each_of(blocks[leaf_block(node.child[c])], leaf_triangles(node.child[c]), f);
+  }
+
+ private:
+  template <class F> static void for_each_of(const SphereBlock& block, uint32_t count, const F& f) {
+    for (uint32_t i = 0; i < count; ++i) {
+      Sphere sphere{};
+      for (int k = 0; k < 3; ++k) sphere.center[k] = block.center[k][i];
+      sphere.radius = block.radius[i];
+      f(sphere, block.primitive[i]);
+    }
   }
 };
 
-class SphereTree {
- public:
-  SphereTree() = default;
-  // Over the spheres of a scene whose material flags satisfy (flags & mask) == value, as build_bvh.
-  SphereTree(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value);
-  bool empty() const { return spheres_.empty(); }
-  size_t size() const { return spheres_.size(); }
-  size_t memory_bytes() const { return spheres_.capacity() * sizeof(Item) + nodes_.capacity() * sizeof(Node); }
-
-  struct Item {
-    Sphere sphere;
-    uint32_t primitive;
-  };
-  const std::vector<Item>& items() const { return spheres_; }
-
-  // The first hit, ties to the lowest primitive; and whether there is any. What they answer is what first_hit()
-  // (frame/exact_hit.h) says of every sphere: it does not depend on the tree. Origin and direction finite, the direction not
-  // zero, no NaN (ray/exact_set.h asks).
-  ExactMeeting closest(const ExactRay& ray) const;
-  bool any(const ExactRay& ray) const;
-
- private:
-  // Boxes hold their spheres with a margin (kMargin), and are rounded outwards.
-  struct Node {
-    float low[3], high[3];
-    uint32_t first, count;  // spheres of a leaf; count 0: `first` is the right child, the left one is the next node
-  };
-  void build(size_t begin, size_t end);
-  template <class Visit>
-  void walk(const ExactRay& ray, const Visit& visit) const;
-
-  std::vector<Item> spheres_;
-  std::vector<Node> nodes_;
-};
+// Over the spheres of a scene whose material flags satisfy (flags & mask) == value, as build_bvh. The same bytes on every machine.
+SphereTree build_sphere_tree(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value);
 
 }  // namespace spanray

@@ -77,13 +77,13 @@ bool improves(double time, uint32_t primitive, const SphereHit& best) {
 }  // namespace
 
 void sweep_exact(const ExactSet& set, const glm::dvec3& start, const glm::dvec3& motion, double radius, SphereHit& best) {
-  for (const SphereTree::Item& item : set.spheres().items()) {
-    const glm::dvec3 c = center_of(item.sphere) - start;
-    const double still = static_cast<double>(item.sphere.radius), time = first_touch(c, motion, radius, still);
-    if (!(time <= 1) || !improves(time, item.primitive, best)) continue;
-    best.primitive = item.primitive, best.contact = contact_at(time, motion * time, c, still);
-  }
-  for (const ExactSet::PlaneItem& item : set.planes()) {
+  set.spheres.for_each([&](const Sphere& sphere, uint32_t primitive) {
+    const glm::dvec3 c = center_of(sphere) - start;
+    const double still = static_cast<double>(sphere.radius), time = first_touch(c, motion, radius, still);
+    if (!(time <= 1) || !improves(time, primitive, best)) return;
+    best.primitive = primitive, best.contact = contact_at(time, motion * time, c, still);
+  });
+  for (const PlaneItem& item : set.planes) {
     const PlaneFrom plane = plane_from(item.plane, start);
     const double time = first_touch(plane, motion, radius);
     if (!(time <= 1) || !improves(time, item.primitive, best)) continue;
@@ -92,12 +92,12 @@ void sweep_exact(const ExactSet& set, const glm::dvec3& start, const glm::dvec3&
 }
 
 void touch_exact(const ExactSet& set, const glm::dvec3& center, double radius, std::vector<SphereHit>& hits) {
-  for (const SphereTree::Item& item : set.spheres().items()) {
-    const glm::dvec3 c = center_of(item.sphere) - center;
-    const double still = static_cast<double>(item.sphere.radius), distance = std::fabs(length3(c) - still);
-    if (distance <= radius) hits.push_back({item.primitive, contact_at(0, glm::dvec3(0), c, still), distance});
-  }
-  for (const ExactSet::PlaneItem& item : set.planes()) {
+  set.spheres.for_each([&](const Sphere& sphere, uint32_t primitive) {
+    const glm::dvec3 c = center_of(sphere) - center;
+    const double still = static_cast<double>(sphere.radius), distance = std::fabs(length3(c) - still);
+    if (distance <= radius) hits.push_back({primitive, contact_at(0, glm::dvec3(0), c, still), distance});
+  });
+  for (const PlaneItem& item : set.planes) {
     const PlaneFrom plane = plane_from(item.plane, center);
     if (!(plane.distance <= radius)) continue;
     hits.push_back({item.primitive, contact_at(0, glm::dvec3(0), plane), plane.distance});

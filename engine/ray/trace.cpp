@@ -5,12 +5,12 @@ namespace spanray {
 
 void trace_closest(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out) {
   kTraceClosest[isa_index(frame.isa)](frame, bvh.data(), rays, out);
-  if (!bvh.data().exact.empty() && !rays.primary) closest_exact(frame, bvh.data().exact, rays, out);
+  if (!bvh.data().exact.empty() && !rays.primary) closest_exact(frame, bvh.data().exact, rays, 0, out);
 }
 
 void trace_any(const Frame& frame, const Bvh& bvh, const RayBatch& rays, uint32_t* out) {
   kTraceAny[isa_index(frame.isa)](frame, bvh.data(), rays, out);
-  if (!bvh.data().exact.empty()) any_exact(bvh.data().exact, rays, out);
+  if (!bvh.data().exact.empty()) any_exact(frame, bvh.data().exact, rays, out);
 }
 
 void trace_all(const Frame& frame, const Bvh& bvh, const RayBatch& rays, HitsOnEdges edges, FragmentList& out) {

@@ -205,10 +205,11 @@ struct SceneQuery::Impl {
     }
     ExactRay beyond = exact_ray(ray);
     beyond.t_min = std::nextafter(static_cast<double>(ray.t_min), -1.0);  // a hit at exactly t_min counts
-    const ExactMeeting met = bvh.data().exact.closest(beyond);
-    if (met.primitive == kNoPrimitive) return best;
-    if (best && shows_triangle(scene.data(), best->name.triangle, best->t, met.primitive, met.t)) return best;
-    return hit_of(beyond, met.primitive);
+    uint32_t met = kNoPrimitive;
+    closest_exact(f, bvh.data().exact, batch_of({&ray, 1}), beyond.t_min, &met);
+    if (met == kNoPrimitive) return best;
+    const RayHit hit = hit_of(beyond, met);
+    return best && shows_triangle(scene.data(), best->name.triangle, best->t, met, hit.t) ? best : hit;
   }
 
   std::vector<std::optional<RayHit>> closest(const Frame& f, std::span<const Ray> rays) const {

@@ -1,0 +1,102 @@
+// first_hit() of frame/exact_hit.h for kLanes rays and one sphere or plane: lanes are rays. Included once a target.
+// Contract: the bits of first_hit(). Plain doubles say first which rays it refuses, by bounds on their error; where any is left, its
+//           operations are done in its order.
+#if defined(SPANRAY_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPANRAY_EXACT_LANES_INL_H_
+#undef SPANRAY_EXACT_LANES_INL_H_
+#else
+#define SPANRAY_EXACT_LANES_INL_H_
+#endif
+
+#include <cstdint>
+#include <limits>
+
+#include "frame/exact_hit.h"
+#include "math/double_double-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace spanray {
+namespace HWY_NAMESPACE {
+
+// ExactRay, of kLanes rays.
+struct ExactRays {
+  F64 origin[3], direction[3], length_square;  // of the direction
+  F64 t_min;
+  bool front_only;
+};
+struct ExactLaneHits { F64 t; uint32_t hit; };  // t of the rays of `hit`; a ray whose t overflows is none
+
+// leaving: the rays that leave this sphere. Only rays of `rays` are told to hit.
+HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const float (&center)[3], float radius, uint32_t leaving, uint32_t rays) {
+  constexpr double kRounding = 0x1p-48;  // as in cross_sphere()
+  const F64 r = f64(static_cast<double>(radius)), zero = f64(0.0);
+  F64 f[3];
+  for (int k = 0; k < 3; ++k) f[k] = ray.origin[k] - f64(static_cast<double>(center[k]));
+  const F64 b1 = dot3(f, ray.direction), f1 = dot3(f, f), r1 = r * r, c1 = f1 - r1, error = f64(kRounding) * (f1 + r1);
+  ExactLaneHits out;
+  out.hit = rays & ~bits_less(b1 * b1 - ray.length_square * c1, -(ray.length_square * error));
+  // From outside, away from the sphere or leaving it. Where c1 is more than its error, a line that meets the sphere has |b| so large that its sign is sure.
+  out.hit &= ~(bits_less(error, c1) & (leaving | bits_less(zero, b1)));
+  if (out.hit == 0) return out;
+
+  const DD64 a = dot3_exact(ray.direction, ray.direction), b = -dot3_exact(f, ray.direction);
+  const DD64 c = dot3_exact(f, f) + two_product(r, -r), square = difference_of_products(b, b, a, c);
+  out.hit &= ~bits_less(square.hi, zero);
+  const F64 root = sqrt_(square.hi), q = select_lt(b.hi, zero, b.hi - root, b.hi + root);
+  const F64 far = q / a.hi, near = select_eq(q, zero, zero, c.hi / q);
+  const F64 enter = select_lt(b.hi, zero, far, near), leave = select_lt(b.hi, zero, near, far);
+  const uint32_t from_outside = bits_less(ray.t_min, enter), from_within = ray.front_only ? 0 : bits_less(ray.t_min, leave);
+  out.t = select_lt(ray.t_min, enter, enter, leave);
+  out.hit &= ~(leaving & bits_less(zero, c.hi)) & (from_outside | from_within) & bits_less(out.t, f64(std::numeric_limits<double>::infinity()));
+  return out;
+}
+
+// along_normal() of math/line_plane.h.
+HWY_INLINE F64 along_normal(const glm::dvec3& normal, const F64 (&v)[3], const F64 (&rest)[3]) {
+  const F64 n[3] = {f64(normal.x), f64(normal.y), f64(normal.z)};
+  if ((normal.x == 0) + (normal.y == 0) + (normal.z == 0) == 2) return dot3(n, v) + dot3(n, rest);
+  const DD64 sum = dot3_exact(n, v) + DD64{dot3(n, rest), f64(0.0)};
+  const F64 all = abs_(n[0] * v[0]) + abs_(n[1] * v[1]) + abs_(n[2] * v[2]);
+  return select_lt(f64(0x1p-96) * all, abs_(sum.hi), sum.hi, f64(0.0));
+}
+
+// surely_leaves() of math/line_plane.h.
+HWY_INLINE uint32_t surely_leave(const ExactRays& ray, const glm::dvec3& normal, const glm::dvec3& point) {
+  F64 height = f64(0.0), slope = height, height_sum = height, slope_sum = height;
+  for (int k = 0; k < 3; ++k) {
+    const F64 h = f64(normal[k]) * (ray.origin[k] - f64(point[k])), s = f64(normal[k]) * ray.direction[k];
+    height = height + h, slope = slope + s, height_sum = height_sum + abs_(h), slope_sum = slope_sum + abs_(s);
+  }
+  const F64 height_error = f64(0x1p-49) * height_sum, slope_error = f64(0x1p-49) * slope_sum;
+  return (bits_less(height_error, height) & bits_less(slope_error, slope)) |
+         (bits_less(height, -height_error) & bits_less(slope, -slope_error));
+}
+
+HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const Plane& plane, uint32_t leaving, uint32_t rays) {
+  const glm::dvec3 normal = normal_of(plane), point = point_of(plane);
+  const F64 zero = f64(0.0);
+  ExactLaneHits out;
+  out.hit = rays & ~leaving & ~surely_leave(ray, normal, point);
+  if (out.hit == 0) return out;
+
+  F64 v[3], rest[3], most = zero;
+  const F64 none[3] = {zero, zero, zero};
+  for (int k = 0; k < 3; ++k) {
+    const DD64 difference = two_sum(ray.origin[k], f64(-point[k]));
+    v[k] = difference.hi, rest[k] = difference.lo;
+    most = max_(most, abs_(ray.direction[k]));
+  }
+  const F64 height = along_normal(normal, v, rest), slope = along_normal(normal, ray.direction, none);
+  const uint32_t above = bits_less(zero, height), below = bits_less(height, zero);
+  out.t = -height / slope;
+  out.hit &= (above & bits_less(slope, zero)) | ((ray.front_only ? 0 : below) & bits_less(zero, slope));
+  out.hit &= bits_less(ray.t_min, out.t) & ~bits_less(f64(kFarthestHit), out.t * most);
+  return out;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace spanray
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPANRAY_EXACT_LANES_INL_H_
