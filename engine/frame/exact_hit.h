@@ -21,7 +21,7 @@ struct ExactRay {
   bool front_only = false;  // faces seen from behind are culled: of spheres from within
 };
 
-inline glm::dvec3 center_of(const Sphere& s) { return {s.center[0], s.center[1], s.center[2]}; }
+template <class S> glm::dvec3 center_of(const S& s) { return {s.center[0], s.center[1], s.center[2]}; }
 
 // The primary ray through (x, y), in pixels. As everywhere, t is its view depth.
 inline ExactRay primary_exact_ray(const Frame& frame, double x, double y) {

@@ -1,5 +1,5 @@
 // Batches of rays against exact primitives: all rays in packets, lanes are rays, coherent or not. Planes first, one by one; then down the
-// tree of spheres, near children first, in leaves one sphere at a time.
+// tree of spheres, one sphere at a time.
 // Input:    any rays; those that prepare_ray() refuses miss.
 // Contract: what is found is what first_hit() over all primitives finds, whatever the tree, the order of the batch and the instruction set.
 #include <algorithm>
@@ -39,7 +39,7 @@ template <bool kAny> class ExactPacket {
     for (int k = 0; k < 3; ++k) ray_.origin[k] = to_f64(raw.origin[k]), ray_.direction[k] = to_f64(raw.direction[k]);
     ray_.length_square = dot3(ray_.direction, ray_.direction);
     best_t_ = to_f64(raw.t_max), best_ = i32(kNoPrimitive);
-    for (const PlaneItem& item : set_.planes) test(item.plane, item.primitive, p_.valid);
+    for (const PlaneItem& item : set_.planes) test(item);
     if (!set_.spheres.nodes.empty() && p_.valid != 0) {
       const Beam beam = make_beam(p_);
       if (p_.mixed_axes == 0) descend<false>(beam);
@@ -54,8 +54,11 @@ template <bool kAny> class ExactPacket {
  private:
   HWY_INLINE uint32_t leaving(uint32_t primitive) const { return to_bits(p_.from == i32(primitive)); }
 
-  HWY_INLINE void test(const Plane& plane, uint32_t primitive, uint32_t rays) {
-    take(first_hit_lanes(ray_, plane, leaving(primitive), rays & p_.valid), primitive);
+  HWY_INLINE void test(const PlaneItem& item) {
+    take(first_hit_lanes(ray_, item.plane, leaving(item.primitive), p_.valid), item.primitive);
+  }
+  HWY_INLINE void test(const TreeSphere& sphere, uint32_t rays) {
+    take(first_hit_lanes(ray_, sphere, leaving(sphere.primitive), rays), sphere.primitive);
   }
 
   HWY_INLINE void take(const ExactLaneHits& hits, uint32_t primitive) {
@@ -75,24 +78,31 @@ template <bool kAny> class ExactPacket {
   }
 
   template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
-    PacketEntry stack[kBvhStackSize];
-    F32::zero().store(stack[0].near);
-    stack[0].child = 0;
-    int top = 1;
-    while (top > 0 && p_.valid != 0) {
-      const PacketEntry& entry = stack[--top];
-      const uint32_t child = entry.child, rays = to_bits(F32::load(entry.near) <= p_.limit) & p_.valid;
+    if constexpr (kAny) descend_any<kMixed>(beam);
+    else descend_near<kMixed>(beam);
+  }
+
+  template <bool kMixed> HWY_INLINE void descend_any(const Beam& beam) {
+    AnyEntry stack[kBvhStackSize + kBvhWidth];
+    int top = push_any<kMixed>(p_, set_.spheres.nodes[0], p_.valid, beam, stack, 0);
+    while (top > 0) {
+      const AnyEntry entry = stack[--top];
+      const uint32_t rays = entry.rays & p_.valid;
       if (rays == 0) continue;
-      if ((child & kLeafBit) != 0) leaf(child, rays);
-      else top = push_nearest<kMixed>(p_, set_.spheres.nodes[child], beam, stack, top);
+      if ((entry.child & kLeafBit) != 0) test(set_.spheres.spheres[sphere_of(entry.child)], rays);
+      else top = push_any<kMixed>(p_, set_.spheres.nodes[entry.child], rays, beam, stack, top);
     }
   }
 
-  HWY_INLINE void leaf(uint32_t child, uint32_t rays) {
-    const SphereBlock& block = set_.spheres.blocks[leaf_block(child)];
-    for (uint32_t j = 0; j < leaf_triangles(child); ++j) {
-      const float center[3] = {block.center[0][j], block.center[1][j], block.center[2][j]};
-      take(first_hit_lanes(ray_, center, block.radius[j], leaving(block.primitive[j]), rays & p_.valid), block.primitive[j]);
+  template <bool kMixed> HWY_INLINE void descend_near(const Beam& beam) {
+    PacketEntry stack[kBvhStackSize + kBvhWidth];
+    int top = push_nearest<kMixed>(p_, set_.spheres.nodes[0], beam, stack, 0);
+    while (top > 0) {
+      const PacketEntry& entry = stack[--top];
+      const uint32_t child = entry.child, rays = to_bits(F32::load(entry.near) <= p_.limit) & p_.valid;
+      if (rays == 0) continue;
+      if ((child & kLeafBit) != 0) test(set_.spheres.spheres[sphere_of(child)], rays);
+      else top = push_nearest<kMixed>(p_, set_.spheres.nodes[child], beam, stack, top);
     }
   }
 

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "frame/exact_hit.h"
+#include "ray/sphere_tree.h"
 #include "math/double_double-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,11 +28,11 @@ struct ExactRays {
 struct ExactLaneHits { F64 t; uint32_t hit; };  // t of the rays of `hit`; a ray whose t overflows is none
 
 // leaving: the rays that leave this sphere. Only rays of `rays` are told to hit.
-HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const float (&center)[3], float radius, uint32_t leaving, uint32_t rays) {
+HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const TreeSphere& s, uint32_t leaving, uint32_t rays) {
   constexpr double kRounding = 0x1p-48;  // as in cross_sphere()
-  const F64 r = f64(static_cast<double>(radius)), zero = f64(0.0);
+  const F64 r = f64(static_cast<double>(s.radius)), zero = f64(0.0);
   F64 f[3];
-  for (int k = 0; k < 3; ++k) f[k] = ray.origin[k] - f64(static_cast<double>(center[k]));
+  for (int k = 0; k < 3; ++k) f[k] = ray.origin[k] - f64(static_cast<double>(s.center[k]));
   const F64 b1 = dot3(f, ray.direction), f1 = dot3(f, f), r1 = r * r, c1 = f1 - r1, error = f64(kRounding) * (f1 + r1);
   ExactLaneHits out;
   out.hit = rays & ~bits_less(b1 * b1 - ray.length_square * c1, -(ray.length_square * error));

@@ -18,8 +18,8 @@ struct ExactSet {
   // Those of a scene whose material flags satisfy (flags & mask) == value, as build_bvh.
   ExactSet(const SceneData& scene, const uint32_t* material_flags, uint32_t mask, uint32_t value);
   bool empty() const { return size() == 0; }
-  size_t size() const { return spheres.count + planes.size(); }
-  size_t memory_bytes() const { return spheres.nodes.bytes() + spheres.blocks.bytes() + planes.capacity() * sizeof(PlaneItem); }
+  size_t size() const { return spheres.spheres.size() + planes.size(); }
+  size_t memory_bytes() const { return spheres.nodes.bytes() + spheres.spheres.bytes() + planes.capacity() * sizeof(PlaneItem); }
 
   SphereTree spheres;
   std::vector<PlaneItem> planes;

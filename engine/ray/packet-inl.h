@@ -110,6 +110,17 @@ template <class Packet, class... From> HWY_INLINE void go_together(Packet& packe
 
 struct AnyEntry { uint32_t child, rays; };
 
+// Pushes the children that some rays meet, in no order. Returns the new top.
+template <bool kMixed>
+HWY_INLINE int push_any(const RayPacket& p, const BvhNode& node, uint32_t rays, const Beam& beam, AnyEntry* stack, int top) {
+  for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
+    const int c = std::countr_zero(rest);
+    const uint32_t meet = to_bits(box_lanes<kMixed>(p, node, c).meets) & rays;
+    if (meet != 0) stack[top++] = {node.child[c], meet};
+  }
+  return top;
+}
+
 struct AnyPacket : PacketTask {
   uint32_t alive = 0;  // rays without a hit
   // The triangle that last stopped some ray, of this packet or one before: where one packet is dark, the next often is by the same.
@@ -166,27 +177,18 @@ struct AnyPacket : PacketTask {
     if (stopper != nullptr) test(*stopper, 1u << stopper_lane, alive);
   }
 
-  template <bool kMixed> HWY_INLINE int push(const BvhNode& node, uint32_t rays, const Beam& beam, AnyEntry* stack, int top) {
-    for (uint32_t rest = beam_children(node, beam); rest != 0; rest &= rest - 1) {
-      const int c = std::countr_zero(rest);
-      const uint32_t meet = to_bits(box_lanes<kMixed>(p, node, c).meets) & rays;
-      if (meet != 0) stack[top++] = {node.child[c], meet};
-    }
-    return top;
-  }
-
   // From the children of some nodes.
   template <bool kMixed> HWY_INLINE void descend(const Beam& beam, const BvhNode* nodes, int n) {
     AnyEntry stack[kBvhStackSize + kBvhWidth];
     int top = 0;
-    for (int i = 0; i < n; ++i) top = push<kMixed>(nodes[i], alive, beam, stack, top);
+    for (int i = 0; i < n; ++i) top = push_any<kMixed>(p, nodes[i], alive, beam, stack, top);
     while (top > 0) {
       AnyEntry entry = stack[--top];
       entry.rays &= alive;
       if (entry.rays == 0) continue;
       if (std::popcount(entry.rays) <= kFewRays) alone(entry);
       else if ((entry.child & kLeafBit) != 0) leaf(entry, beam);
-      else top = push<kMixed>(data.nodes[entry.child], entry.rays, beam, stack, top);
+      else top = push_any<kMixed>(p, data.nodes[entry.child], entry.rays, beam, stack, top);
     }
   }
 };

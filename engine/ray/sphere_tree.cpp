@@ -38,43 +38,42 @@ class Builder {
   Builder(const SceneData& scene, AlignedBuffer<Ref>& refs, AlignedBuffer<Ref>& second, SphereTree& tree)
       : scene_(scene), splitter_(refs.data(), second.data(), nullptr), tree_(tree) {}
 
-  // Splits the largest part until there are eight. Returns the node's index.
+  // A node of up to eight spheres, or of up to eight parts that are nodes. Returns its index.
   uint32_t add_node(const Range& range, int depth) {
-    Range part[kBvhWidth] = {range};
-    bool whole[kBvhWidth] = {};  // it was not worth while to split it
-    int n = 1;
-    while (n < kBvhWidth) {
-      int largest = -1;
-      for (int i = 0; i < n; ++i)
-        if (!whole[i] && (largest < 0 || area(part[i]) > area(part[largest]))) largest = i;
-      if (largest < 0) break;
-      Range left, right;
-      whole[largest] = !splitter_.split(part[largest], depth >= kSafeDepth, left, right);
-      if (!whole[largest]) part[largest] = left, part[n++] = right;
-    }
     const uint32_t index = static_cast<uint32_t>(tree_.nodes.size());
     tree_.nodes.push_back(bvh::empty_node());
+    if (range.count() <= kBvhWidth) {
+      for (uint32_t i = 0; i < range.count(); ++i) add_sphere(splitter_.refs(range)[i], tree_.nodes[index], static_cast<int>(i));
+      return index;
+    }
+    Range part[kBvhWidth] = {range};
+    int n = 1;
+    while (n < kBvhWidth) {
+      Range &largest = *std::max_element(part, part + n, smaller), left, right;
+      if (largest.count() <= kBvhWidth) break;
+      splitter_.split(largest, depth >= kSafeDepth, left, right);
+      largest = left, part[n++] = right;
+    }
     for (int i = 0; i < n; ++i) {
-      const uint32_t child = part[i].count() <= kBvhWidth ? add_leaf(part[i]) : add_node(part[i], depth + 1);
-      tree_.nodes[index].child[i] = child;
       bvh::set_box(tree_.nodes[index], i, part[i].bounds.box);
+      const uint32_t child = add_node(part[i], depth + 1);  // may move tree_.nodes
+      tree_.nodes[index].child[i] = child;
     }
     return index;
   }
 
  private:
-  static float area(const Range& range) { return range.bounds.box.half_area(); }
+  // Parts of eight spheres and fewer are not split: they are smaller than any other.
+  static bool smaller(const Range& a, const Range& b) {
+    const auto size = [](const Range& r) { return r.count() <= kBvhWidth ? -1.0f : r.bounds.box.half_area(); };
+    return size(a) < size(b);
+  }
 
-  uint32_t add_leaf(const Range& range) {
-    SphereBlock block{};
-    for (uint32_t i = 0; i < range.count(); ++i) {
-      const uint32_t primitive = splitter_.refs(range)[i].primitive();
-      const Sphere& sphere = scene_.sphere(primitive);
-      for (int k = 0; k < 3; ++k) block.center[k][i] = sphere.center[k];
-      block.radius[i] = sphere.radius, block.primitive[i] = primitive;
-    }
-    tree_.blocks.push_back(block);
-    return leaf_child(static_cast<uint32_t>(tree_.blocks.size()) - 1, range.count());
+  void add_sphere(const Ref& ref, BvhNode& node, int slot) {
+    const Sphere& s = scene_.sphere(ref.primitive());
+    bvh::set_box(node, slot, ref.box);
+    node.child[slot] = sphere_child(static_cast<uint32_t>(tree_.spheres.size()));
+    tree_.spheres.push_back({{s.center[0], s.center[1], s.center[2]}, s.radius, ref.primitive()});
   }
 
   const SceneData& scene_;
@@ -94,10 +93,10 @@ SphereTree build_sphere_tree(const SceneData& scene, const uint32_t* material_fl
     ref.set_primitive(static_cast<uint32_t>(scene.triangles.size() + i));
     refs.push_back(ref), all.bounds.add(ref);
   }
-  tree.count = refs.size();
   if (refs.empty()) return tree;
   all.end = static_cast<uint32_t>(refs.size());
   AlignedBuffer<Ref> second(refs.size());
+  tree.spheres.reserve(refs.size());
   Builder(scene, refs, second, tree).add_node(all, 1);
   return tree;
 }

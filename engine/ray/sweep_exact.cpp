@@ -77,12 +77,12 @@ bool improves(double time, uint32_t primitive, const SphereHit& best) {
 }  // namespace
 
 void sweep_exact(const ExactSet& set, const glm::dvec3& start, const glm::dvec3& motion, double radius, SphereHit& best) {
-  set.spheres.for_each([&](const Sphere& sphere, uint32_t primitive) {
-    const glm::dvec3 c = center_of(sphere) - start;
-    const double still = static_cast<double>(sphere.radius), time = first_touch(c, motion, radius, still);
-    if (!(time <= 1) || !improves(time, primitive, best)) return;
-    best.primitive = primitive, best.contact = contact_at(time, motion * time, c, still);
-  });
+  for (const TreeSphere& s : set.spheres.spheres) {
+    const glm::dvec3 c = center_of(s) - start;
+    const double still = static_cast<double>(s.radius), time = first_touch(c, motion, radius, still);
+    if (!(time <= 1) || !improves(time, s.primitive, best)) continue;
+    best.primitive = s.primitive, best.contact = contact_at(time, motion * time, c, still);
+  }
   for (const PlaneItem& item : set.planes) {
     const PlaneFrom plane = plane_from(item.plane, start);
     const double time = first_touch(plane, motion, radius);
@@ -92,11 +92,11 @@ void sweep_exact(const ExactSet& set, const glm::dvec3& start, const glm::dvec3&
 }
 
 void touch_exact(const ExactSet& set, const glm::dvec3& center, double radius, std::vector<SphereHit>& hits) {
-  set.spheres.for_each([&](const Sphere& sphere, uint32_t primitive) {
-    const glm::dvec3 c = center_of(sphere) - center;
-    const double still = static_cast<double>(sphere.radius), distance = std::fabs(length3(c) - still);
-    if (distance <= radius) hits.push_back({primitive, contact_at(0, glm::dvec3(0), c, still), distance});
-  });
+  for (const TreeSphere& s : set.spheres.spheres) {
+    const glm::dvec3 c = center_of(s) - center;
+    const double still = static_cast<double>(s.radius), distance = std::fabs(length3(c) - still);
+    if (distance <= radius) hits.push_back({s.primitive, contact_at(0, glm::dvec3(0), c, still), distance});
+  }
   for (const PlaneItem& item : set.planes) {
     const PlaneFrom plane = plane_from(item.plane, center);
     if (!(plane.distance <= radius)) continue;
