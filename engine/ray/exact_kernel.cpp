@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "frame/exact_hit.h"
 #include "frame/frame.h"
@@ -29,93 +30,78 @@ template <bool kAny> class ExactPacket {
     ray_.t_min = f64(t_min), ray_.front_only = front_only;
   }
 
-  // Those of rays first to first + n - 1 that are in `wanted`. Afterwards: which of them were hit.
-  HWY_INLINE uint32_t trace(const RayBatch& rays, int first, int n, uint32_t wanted) {
+  // Those of rays first to first + kLanes - 1 that are in `wanted`. Returns which of them hit something.
+  HWY_INLINE uint32_t trace(const RayBatch& rays, int first, uint32_t wanted) {
     RawRays raw;
-    prepare_rays(rays, first, n, p_, raw, scales_);
+    prepare_rays(rays, first, std::min(rays.count - first, kLanes), p_, raw, scales_);
     p_.valid &= wanted;
     found_ = 0;
     if (p_.valid == 0) return 0;
     for (int k = 0; k < 3; ++k) ray_.origin[k] = to_f64(raw.origin[k]), ray_.direction[k] = to_f64(raw.direction[k]);
-    ray_.length_square = dot3(ray_.direction, ray_.direction);
-    best_t_ = to_f64(raw.t_max), best_ = i32(kNoPrimitive);
-    for (const PlaneItem& item : set_.planes) test(item);
-    if (!set_.spheres.nodes.empty() && p_.valid != 0) {
-      const Beam beam = make_beam(p_);
-      if (p_.mixed_axes == 0) descend<false>(beam);
-      else descend<true>(beam);
-    }
+    ray_.length_square = dot3(ray_.direction, ray_.direction), ray_.t_max = to_f64(raw.t_max);
+    best_ = i32(kNoPrimitive);
+    if (stopper_ != nullptr) test(*stopper_, p_.valid);
+    for (const PlaneItem& item : set_.planes)
+      take(first_hit_lanes(ray_, item.plane, leaving(item.primitive), p_.valid), item.primitive);
+    if (p_.valid == 0 || set_.spheres.nodes.empty()) return found_;
+    const Beam beam = make_beam(p_);
+    if (p_.mixed_axes == 0) descend<false>(beam);
+    else descend<true>(beam);
     return found_;
   }
 
-  // Of the closest hits, by lane.
-  HWY_INLINE void store(uint32_t* primitive, double* t) const { best_.store(primitive), best_t_.store(t); }
+  // The closest hits, by lane.
+  HWY_INLINE void store(uint32_t* primitive, double* t) const { best_.store(primitive), ray_.t_max.store(t); }
 
  private:
   HWY_INLINE uint32_t leaving(uint32_t primitive) const { return to_bits(p_.from == i32(primitive)); }
 
-  HWY_INLINE void test(const PlaneItem& item) {
-    take(first_hit_lanes(ray_, item.plane, leaving(item.primitive), p_.valid), item.primitive);
-  }
   HWY_INLINE void test(const TreeSphere& sphere, uint32_t rays) {
-    take(first_hit_lanes(ray_, sphere, leaving(sphere.primitive), rays), sphere.primitive);
+    const ExactLaneHits hits = first_hit_lanes<kAny>(ray_, sphere, leaving(sphere.primitive), rays);
+    take(hits, sphere.primitive);
+    if (kAny && (hits.hit | hits.sure) != 0) stopper_ = &sphere;
   }
 
   HWY_INLINE void take(const ExactLaneHits& hits, uint32_t primitive) {
-    if (hits.hit == 0) return;
+    uint32_t hit = hits.hit | hits.sure;
     if constexpr (kAny) {
-      const uint32_t hit = hits.hit & ~bits_less(best_t_, hits.t);
-      found_ |= hit, p_.valid &= ~hit;
+      p_.valid &= ~hit;
     } else {
-      const uint32_t nearer = bits_less(hits.t, best_t_), same = ~(nearer | bits_less(best_t_, hits.t));
-      const uint32_t hit = hits.hit & (nearer | (same & to_bits(less_unsigned(i32(primitive), best_))));
+      hit &= bits_less(hits.t, ray_.t_max) | to_bits(less_unsigned(i32(primitive), best_));
       if (hit == 0) return;
       const Mask m = mask_from_bits(hit);
-      found_ |= hit;
-      best_t_ = select(m, hits.t, best_t_), best_ = select(m, i32(primitive), best_);
+      ray_.t_max = select(m, hits.t, ray_.t_max), best_ = select(m, i32(primitive), best_);
       p_.limit = select(m, round_up_lanes(hits.t * scales_.size), p_.limit);
     }
+    found_ |= hit;
   }
 
   template <bool kMixed> HWY_INLINE void descend(const Beam& beam) {
-    if constexpr (kAny) descend_any<kMixed>(beam);
-    else descend_near<kMixed>(beam);
-  }
-
-  template <bool kMixed> HWY_INLINE void descend_any(const Beam& beam) {
-    AnyEntry stack[kBvhStackSize + kBvhWidth];
-    int top = push_any<kMixed>(p_, set_.spheres.nodes[0], p_.valid, beam, stack, 0);
-    while (top > 0) {
-      const AnyEntry entry = stack[--top];
-      const uint32_t rays = entry.rays & p_.valid;
+    const SphereTree& tree = set_.spheres;
+    std::conditional_t<kAny, AnyEntry, PacketEntry> stack[kBvhStackSize];
+    const auto push = [&](uint32_t node, uint32_t rays, int top) HWY_ATTR {
+      if constexpr (kAny) return push_any<kMixed>(p_, tree.nodes[node], rays, beam, stack, top);
+      else return push_nearest<kMixed>(p_, tree.nodes[node], beam, stack, top);
+    };
+    for (int top = push(0, p_.valid, 0); top > 0;) {
+      const auto& entry = stack[--top];
+      const uint32_t child = entry.child, rays = p_.valid & rays_of(entry);
       if (rays == 0) continue;
-      if ((entry.child & kLeafBit) != 0) test(set_.spheres.spheres[sphere_of(entry.child)], rays);
-      else top = push_any<kMixed>(p_, set_.spheres.nodes[entry.child], rays, beam, stack, top);
+      if ((child & kLeafBit) != 0) test(tree.spheres[sphere_of(child)], rays);
+      else top = push(child, rays, top);
     }
   }
-
-  template <bool kMixed> HWY_INLINE void descend_near(const Beam& beam) {
-    PacketEntry stack[kBvhStackSize + kBvhWidth];
-    int top = push_nearest<kMixed>(p_, set_.spheres.nodes[0], beam, stack, 0);
-    while (top > 0) {
-      const PacketEntry& entry = stack[--top];
-      const uint32_t child = entry.child, rays = to_bits(F32::load(entry.near) <= p_.limit) & p_.valid;
-      if (rays == 0) continue;
-      if ((child & kLeafBit) != 0) test(set_.spheres.spheres[sphere_of(child)], rays);
-      else top = push_nearest<kMixed>(p_, set_.spheres.nodes[child], beam, stack, top);
-    }
-  }
+  HWY_INLINE uint32_t rays_of(const AnyEntry& entry) const { return entry.rays; }
+  HWY_INLINE uint32_t rays_of(const PacketEntry& entry) const { return to_bits(F32::load(entry.near) <= p_.limit); }
 
   const ExactSet& set_;
-  RayPacket p_;  // valid: rays that are still traced
+  RayPacket p_;  // valid: rays that still ask
   ScaleLanes scales_;
   ExactRays ray_;
-  F64 best_t_;  // t_max until something is hit
-  I32 best_;
+  I32 best_;  // of the closest hits
   uint32_t found_ = 0;
+  const TreeSphere* stopper_ = nullptr;  // the last that stopped a ray, of any hit: where one packet is dark, the next often is by the same
 };
-
-HWY_INLINE int rays_from(const RayBatch& rays, int first) { return std::min(rays.count - first, kLanes); }
 
 // t of a triangle that the ray is known to meet, in units of its direction.
 HWY_NOINLINE double triangle_t(const SceneData& scene, const RayBatch& rays, int i, uint32_t primitive) {
@@ -131,7 +117,7 @@ HWY_NOINLINE double triangle_t(const SceneData& scene, const RayBatch& rays, int
 void closest_exact_kernel(const Frame& frame, const ExactSet& set, const RayBatch& rays, double t_min, uint32_t* out) {
   ExactPacket<false> packet(set, t_min, frame.settings.culling == Culling::kBack);
   for (int first = 0; first < rays.count; first += kLanes) {
-    const uint32_t found = packet.trace(rays, first, rays_from(rays, first), (1u << kLanes) - 1);
+    const uint32_t found = packet.trace(rays, first, ~0u);
     if (found == 0) continue;
     alignas(64) uint32_t primitive[kLanes];
     alignas(64) double t[kLanes];
@@ -149,7 +135,7 @@ void closest_exact_kernel(const Frame& frame, const ExactSet& set, const RayBatc
 void any_exact_kernel(const ExactSet& set, const RayBatch& rays, uint32_t* out) {
   ExactPacket<true> packet(set, 0, false);
   for (int first = 0; first < rays.count; first += kLanes)
-    out[first / 32] |= packet.trace(rays, first, rays_from(rays, first), ~(out[first / 32] >> (first % 32))) << (first % 32);
+    out[first / 32] |= packet.trace(rays, first, ~(out[first / 32] >> (first % 32))) << (first % 32);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,5 +1,5 @@
 // first_hit() of frame/exact_hit.h for kLanes rays and one sphere or plane: lanes are rays. Included once a target.
-// Contract: the bits of first_hit(). Plain doubles say first which rays it refuses, by bounds on their error; where any is left, its
+// Contract: the bits of first_hit(). Plain doubles say first what bounds on their error leave no doubt about; where rays are left, its
 //           operations are done in its order.
 #if defined(SPANRAY_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_EXACT_LANES_INL_H_
@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "frame/exact_hit.h"
-#include "ray/sphere_tree.h"
 #include "math/double_double-inl.h"
+#include "ray/sphere_tree.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace spanray {
@@ -22,33 +22,44 @@ namespace HWY_NAMESPACE {
 // ExactRay, of kLanes rays.
 struct ExactRays {
   F64 origin[3], direction[3], length_square;  // of the direction
-  F64 t_min;
+  F64 t_min, t_max;  // of the closest hit: t_max is that of the best so far
   bool front_only;
 };
-struct ExactLaneHits { F64 t; uint32_t hit; };  // t of the rays of `hit`; a ray whose t overflows is none
+// hit: at t, t_min < t <= t_max, t not infinite. sure: also hit; at which t was not asked.
+struct ExactLaneHits { F64 t; uint32_t hit, sure; };
 
-// leaving: the rays that leave this sphere. Only rays of `rays` are told to hit.
+// Of `rays`; those of `leaving` leave this sphere.
+// kAny: t does not matter, and t_min is 0, front_only false.
+// Contract: with c1 the square of the distance to the sphere's center less that of its radius, b1 that of nearing it, and square1 what
+//           decides whether the line meets it, each is off by less than 2^-50 of the sums of what they are made from.
+template <bool kAny>
 HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const TreeSphere& s, uint32_t leaving, uint32_t rays) {
   constexpr double kRounding = 0x1p-48;  // as in cross_sphere()
   const F64 r = f64(static_cast<double>(s.radius)), zero = f64(0.0);
   F64 f[3];
   for (int k = 0; k < 3; ++k) f[k] = ray.origin[k] - f64(static_cast<double>(s.center[k]));
-  const F64 b1 = dot3(f, ray.direction), f1 = dot3(f, f), r1 = r * r, c1 = f1 - r1, error = f64(kRounding) * (f1 + r1);
-  ExactLaneHits out;
-  out.hit = rays & ~bits_less(b1 * b1 - ray.length_square * c1, -(ray.length_square * error));
-  // From outside, away from the sphere or leaving it. Where c1 is more than its error, a line that meets the sphere has |b| so large that its sign is sure.
-  out.hit &= ~(bits_less(error, c1) & (leaving | bits_less(zero, b1)));
+  const F64 b1 = dot3(f, ray.direction), f1 = dot3(f, f), r1 = r * r, c1 = f1 - r1, c_error = f64(kRounding) * (f1 + r1);
+  const F64 square1 = b1 * b1 - ray.length_square * c1, square_error = ray.length_square * c_error;
+  ExactLaneHits out{zero, rays & ~bits_less(square1, -square_error), 0};
+  // Who comes from outside and moves away, or leaves the sphere, never meets it. Of lines that meet it c1 bounds b1 from below: its sign is
+  // sure.
+  const uint32_t outside = bits_less(c_error, c1);
+  out.hit &= ~(outside & (leaving | bits_less(zero, b1)));
+  // Who comes from outside and surely meets it, does so 2^-25 of the way before the place nearest to the center.
+  if constexpr (kAny)
+    out.sure = out.hit & outside & bits_less(square_error, square1) & bits_less(-b1, ray.length_square * ray.t_max);
+  out.hit &= ~out.sure;
   if (out.hit == 0) return out;
 
   const DD64 a = dot3_exact(ray.direction, ray.direction), b = -dot3_exact(f, ray.direction);
   const DD64 c = dot3_exact(f, f) + two_product(r, -r), square = difference_of_products(b, b, a, c);
-  out.hit &= ~bits_less(square.hi, zero);
   const F64 root = sqrt_(square.hi), q = select_lt(b.hi, zero, b.hi - root, b.hi + root);
   const F64 far = q / a.hi, near = select_eq(q, zero, zero, c.hi / q);
   const F64 enter = select_lt(b.hi, zero, far, near), leave = select_lt(b.hi, zero, near, far);
-  const uint32_t from_outside = bits_less(ray.t_min, enter), from_within = ray.front_only ? 0 : bits_less(ray.t_min, leave);
+  const uint32_t enters = bits_less(ray.t_min, enter), leaves = ray.front_only ? 0 : bits_less(ray.t_min, leave);
   out.t = select_lt(ray.t_min, enter, enter, leave);
-  out.hit &= ~(leaving & bits_less(zero, c.hi)) & (from_outside | from_within) & bits_less(out.t, f64(std::numeric_limits<double>::infinity()));
+  out.hit &= ~bits_less(square.hi, zero) & ~(leaving & bits_less(zero, c.hi)) & (enters | leaves);
+  out.hit &= ~bits_less(ray.t_max, out.t) & bits_less(out.t, f64(std::numeric_limits<double>::infinity()));
   return out;
 }
 
@@ -73,11 +84,12 @@ HWY_INLINE uint32_t surely_leave(const ExactRays& ray, const glm::dvec3& normal,
          (bits_less(height, -height_error) & bits_less(slope, -slope_error));
 }
 
+// Of `rays`; those of `leaving` leave this plane.
 HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const Plane& plane, uint32_t leaving, uint32_t rays) {
   const glm::dvec3 normal = normal_of(plane), point = point_of(plane);
   const F64 zero = f64(0.0);
-  ExactLaneHits out;
-  out.hit = rays & ~leaving & ~surely_leave(ray, normal, point);
+  ExactLaneHits out{zero, rays & ~leaving, 0};
+  if (out.hit != 0) out.hit &= ~surely_leave(ray, normal, point);
   if (out.hit == 0) return out;
 
   F64 v[3], rest[3], most = zero;
@@ -91,7 +103,7 @@ HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const Plane& plan
   const uint32_t above = bits_less(zero, height), below = bits_less(height, zero);
   out.t = -height / slope;
   out.hit &= (above & bits_less(slope, zero)) | ((ray.front_only ? 0 : below) & bits_less(zero, slope));
-  out.hit &= bits_less(ray.t_min, out.t) & ~bits_less(f64(kFarthestHit), out.t * most);
+  out.hit &= bits_less(ray.t_min, out.t) & ~bits_less(ray.t_max, out.t) & ~bits_less(f64(kFarthestHit), out.t * most);
   return out;
 }
 
