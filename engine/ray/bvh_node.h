@@ -11,7 +11,7 @@ inline constexpr int kBvhStackSize = kBvhMaxDepth * (kBvhWidth - 1) + 1;
 // Boxes of eight children as arrays. Unused slots hold the empty box (+inf, -inf), which every ray misses.
 struct alignas(64) BvhNode {
   float bounds[6][kBvhWidth];  // min x, y, z, max x, y, z
-  uint32_t child[kBvhWidth];   // kLeafBit | block << 3 | (triangles - 1), or the index of a node
+  uint32_t child[kBvhWidth];   // the index of a node, or of triangles kLeafBit | block << 3 | (triangles - 1)
 };
 inline constexpr uint32_t kLeafBit = 0x80000000u;
 inline uint32_t leaf_child(uint32_t block, uint32_t triangles) { return kLeafBit | block << 3 | (triangles - 1); }

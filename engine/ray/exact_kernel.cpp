@@ -1,7 +1,8 @@
-// Batches of rays against exact primitives: all rays in packets, lanes are rays, coherent or not. Planes first, one by one; then down the
-// tree of spheres, one sphere at a time.
+// Batches of rays against exact primitives: all rays in packets, lanes are rays, coherent or not. Planes first, one by one;
+// then down the tree of spheres, one sphere at a time.
 // Input:    any rays; those that prepare_ray() refuses miss.
-// Contract: what is found is what first_hit() over all primitives finds, whatever the tree, the order of the batch and the instruction set.
+// Contract: what is found is what first_hit() over all primitives finds, whatever the tree, the order of the batch and the
+//           instruction set.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -100,7 +101,8 @@ template <bool kAny> class ExactPacket {
   ExactRays ray_;
   I32 best_;  // of the closest hits
   uint32_t found_ = 0;
-  const TreeSphere* stopper_ = nullptr;  // the last that stopped a ray, of any hit: where one packet is dark, the next often is by the same
+  // Of any hit: the sphere that last stopped a ray. Where one packet is dark, the next often is by the same.
+  const TreeSphere* stopper_ = nullptr;
 };
 
 // t of a triangle that the ray is known to meet, in units of its direction.

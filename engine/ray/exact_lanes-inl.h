@@ -1,6 +1,6 @@
 // first_hit() of frame/exact_hit.h for kLanes rays and one sphere or plane: lanes are rays. Included once a target.
-// Contract: the bits of first_hit(). Plain doubles say first what bounds on their error leave no doubt about; where rays are left, its
-//           operations are done in its order.
+// Contract: the bits of first_hit(). Plain doubles say first what bounds on their error leave no doubt about; where rays are
+//           left, its operations are done in its order.
 #if defined(SPANRAY_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPANRAY_EXACT_LANES_INL_H_
 #undef SPANRAY_EXACT_LANES_INL_H_
@@ -30,8 +30,8 @@ struct ExactLaneHits { F64 t; uint32_t hit, sure; };
 
 // Of `rays`; those of `leaving` leave this sphere.
 // kAny: t does not matter, and t_min is 0, front_only false.
-// Contract: with c1 the square of the distance to the sphere's center less that of its radius, b1 that of nearing it, and square1 what
-//           decides whether the line meets it, each is off by less than 2^-50 of the sums of what they are made from.
+// Contract: c1 tells outside from inside (|f|^2 - r^2), square1 lines that meet the sphere from those that pass it by; both are
+//           off by less than 2^-50 of the sum of what they are made from.
 template <bool kAny>
 HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const TreeSphere& s, uint32_t leaving, uint32_t rays) {
   constexpr double kRounding = 0x1p-48;  // as in cross_sphere()
@@ -41,8 +41,8 @@ HWY_INLINE ExactLaneHits first_hit_lanes(const ExactRays& ray, const TreeSphere&
   const F64 b1 = dot3(f, ray.direction), f1 = dot3(f, f), r1 = r * r, c1 = f1 - r1, c_error = f64(kRounding) * (f1 + r1);
   const F64 square1 = b1 * b1 - ray.length_square * c1, square_error = ray.length_square * c_error;
   ExactLaneHits out{zero, rays & ~bits_less(square1, -square_error), 0};
-  // Who comes from outside and moves away, or leaves the sphere, never meets it. Of lines that meet it c1 bounds b1 from below: its sign is
-  // sure.
+  // Who comes from outside and moves away, or leaves the sphere, never meets it: b1^2 >= a c1 of lines that meet it, so the sign
+  // of their b1 is sure.
   const uint32_t outside = bits_less(c_error, c1);
   out.hit &= ~(outside & (leaving | bits_less(zero, b1)));
   // Who comes from outside and surely meets it, does so 2^-25 of the way before the place nearest to the center.

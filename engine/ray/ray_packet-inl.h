@@ -161,8 +161,8 @@ HWY_INLINE ShearLanes exact_shear(const RayPacket& p) {
   return {to_f64(p.along_x) / z, to_f64(p.along_y) / z};
 }
 
-// Rays first to first + n - 1 of the batch, without what only triangles need: shears, axes of lanes, errors of edges. p.valid is 0 if
-// none is a ray.
+// Rays first to first + n - 1 of the batch, without what only triangles need: shears, axes of lanes, errors of edges. p.valid is
+// 0 if none is a ray.
 HWY_INLINE void prepare_rays(const RayBatch& rays, int first, int n, RayPacket& p, RawRays& r, ScaleLanes& scales) {
   r = load_raw(rays, first, n);
   p.valid = mend_raw(r);

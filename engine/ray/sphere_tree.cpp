@@ -43,7 +43,8 @@ class Builder {
     const uint32_t index = static_cast<uint32_t>(tree_.nodes.size());
     tree_.nodes.push_back(bvh::empty_node());
     if (range.count() <= kBvhWidth) {
-      for (uint32_t i = 0; i < range.count(); ++i) add_sphere(splitter_.refs(range)[i], tree_.nodes[index], static_cast<int>(i));
+      for (uint32_t i = 0; i < range.count(); ++i)
+        add_sphere(splitter_.refs(range)[i], tree_.nodes[index], static_cast<int>(i));
       return index;
     }
     Range part[kBvhWidth] = {range};
