@@ -110,6 +110,7 @@ TEST(ShadeBump, OneChannelOfGrayIsItsLuminance) {
     return Texel{v, v, v, 65535};
   });
   for (Material& m : t->scene.materials) m.map_bump = gray, m.map_normal = -1;
+  find_material_flags(*t);
   HitBatch hits;
   random_primary_hits(t->frame, random, 1000, hits);
   for (const Isa isa : supported_isas()) {
@@ -147,6 +148,7 @@ TEST(ShadeBump, RowsOfHeightsChangeNoBit) {
   for (int maps = 3; maps <= 5; ++maps) {  // all in rows; some clamped; some by luminance
     for (size_t m = 0; m < scene.materials.size(); ++m)
       scene.materials[m].map_bump = use[m % static_cast<size_t>(maps)], scene.materials[m].map_normal = -1;
+    find_material_flags(*t);
     HitBatch hits;
     random_primary_hits(t->frame, random, 1000, hits);
     for (const Isa isa : supported_isas()) {

@@ -21,12 +21,18 @@ struct TestFrame {
   TestFrame& operator=(const TestFrame&) = delete;
 };
 
+// To be called again after a change of materials.
+inline void find_material_flags(TestFrame& t) {
+  t.material_flags.clear();
+  for (const Material& m : t.scene.materials) t.material_flags.push_back(material_flags(m, t.frame.settings));
+  t.frame.material_flags = t.material_flags.data();
+}
+
 // settings.width and height give the picture, isa and threads (0: one) are used as they are; flags follow the materials.
 inline std::unique_ptr<TestFrame> make_test_frame(SceneData scene, const Camera& camera, const Settings& settings) {
   auto t = std::make_unique<TestFrame>();
   t->scene = std::move(scene);
   t->parallel = std::make_unique<Parallel>(settings.threads > 0 ? settings.threads : 1);
-  for (const Material& m : t->scene.materials) t->material_flags.push_back(material_flags(m, settings));
   Frame& f = t->frame;
   f.scene = &t->scene;
   f.settings = settings;
@@ -34,7 +40,7 @@ inline std::unique_ptr<TestFrame> make_test_frame(SceneData scene, const Camera&
   f.grid = TileGrid(settings.width, settings.height);
   f.isa = resolve_isa(settings.isa);
   f.parallel = t->parallel.get();
-  f.material_flags = t->material_flags.data();
+  find_material_flags(*t);
   return t;
 }
 
