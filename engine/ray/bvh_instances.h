@@ -40,9 +40,10 @@ using SingleTree = AlignedBuffer<BvhNode>;
 // slab() then rounds as it does elsewhere. What `slack` is made of is rounded up by far more than rounding in double.
 //
 // No touch of a sphere of radius R is lost (ray/sweep.cpp). When first_contact() accepts, its center c = s + t m is within R + e of a point q as
-// above, e < 2^-44 (R + |q - s|). Along axis k of the part, |A_k (q - c)| <= |A_k| (R + e), A_k the row, in the Euclidean norm: boxes
-// grow by |A_k| R and by `slack`. What remains, |A_k| e and the rounding of A (s - b) and of A m, is below 2^-43 |A| (R + |s - b|);
-// as |A| |M| <= 16, that is below 2^-39 of (the largest |A_k| R + the largest coordinate of A (s - b)), and kSlack there is 2^-38.
+// above, e < 2^-44 (R + |v - s|) with v the corner of the triangle that is farthest from s. Along axis k of the part, |A_k (q - c)| <= |A_k| (R + e), A_k
+// the row, in the Euclidean norm: boxes grow by |A_k| R and by `slack`. What remains is |A_k| e, and the rounding of A (s - b) and of A m. Leaves of parts hold their
+// triangles whole, so what kSlack is taken of, the largest coordinate of a box seen from the center, has v in it: as |A| |M| <= 16, |A_k| e is below half of it. A (s - b)
+// is a point of the part plus what is seen from the center: of the former `slack` holds 2^-32, of the latter kSlack is 2^-38, both far more than rounding takes.
 struct PlacedPart {
   double part_from_world[3][3];
   double offset[3];

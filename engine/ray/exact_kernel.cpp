@@ -1,5 +1,5 @@
-// Batches of rays against exact primitives: all rays in packets, lanes are rays, coherent or not. Planes first, one by one;
-// then down the tree of spheres, one sphere at a time.
+// Batches of rays against exact primitives: all rays in packets, lanes are rays, coherent or not. Planes first, one by one (of any
+// hit, the sphere that stopped rays before them); then down the tree of spheres, one sphere at a time.
 // Input:    any rays; those that prepare_ray() refuses miss.
 // Contract: what is found is what first_hit() over all primitives finds, whatever the tree, the order of the batch and the
 //           instruction set.

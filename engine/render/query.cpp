@@ -203,6 +203,7 @@ struct SceneQuery::Impl {
       if (hit.t < static_cast<double>(ray.t_min)) continue;
       if (!best || hit.t < best->t || (hit.t == best->t && primitive < best->name.triangle)) best = hit;
     }
+    if (bvh.data().exact.empty()) return best;
     ExactRay beyond = exact_ray(ray);
     beyond.t_min = std::nextafter(static_cast<double>(ray.t_min), -1.0);  // a hit at exactly t_min counts
     uint32_t met = kNoPrimitive;

@@ -42,7 +42,7 @@ RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQu
 RayTrees::Makeup RayTrees::makeup() const {
   Makeup all;
   for (const Tree* tree : {&opaque_, &translucent_})
-    if (tree->bvh) all.levels = std::max(all.levels, tree->bvh->levels()), all.instances += tree->bvh->instance_count();
+    if (tree->bvh) all.levels = std::max(all.levels, tree->bvh->levels()), all.instances = std::max(all.instances, tree->bvh->instance_count());
   all.bytes = memory_bytes();
   return all;
 }

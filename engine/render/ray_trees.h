@@ -32,7 +32,7 @@ class RayTrees {
   // What the trees are made of.
   struct Makeup {
     int levels = 0;       // of the tree that has most: 2 where parts of instances have their own; 0: there is none
-    size_t instances = 0; // that stand in trees of two levels: once in each
+    size_t instances = 0;  // that stand in a tree of two levels; of the tree that has most
     size_t bytes = 0;
   };
   Makeup makeup() const;

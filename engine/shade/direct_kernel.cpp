@@ -81,7 +81,7 @@ HWY_INLINE void add_material(const Frame& frame, PlainTextures& plain, Shaded& s
   if (frame.plan.bump) apply_bump(frame, plain, s);
   if (frame.plan.normals) s.normal = clamp_to_horizon(s.normal, s.geometric);
   s.m = constants_of(materials_of(frame, plain, s));
-  if (reads_textures(frame)) apply_textures(frame, plain, s);
+  if (frame.plan.textures) apply_textures(frame, plain, s);
   s.radiance = ambient_of(frame, s.m);
 }
 

@@ -58,8 +58,8 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
     point.normal = interpolated_normal(frame, corner_normals(scene, t, point.geometric), point.weight.y, point.weight.z,
                                        point.geometric);
   point.material = t.bits & i32(kTriangleMaterialMask);
-  const I32 flags = flags_of_materials(frame, point.material);
-  point.mapped = reads_textures(frame) && any_flag(flags, kMaterialMapped);
+  const I32 flags = reads_textures(frame) ? flags_of_materials(frame, point.material) : I32::zero();
+  point.mapped = any_flag(flags, kMaterialMapped);
   if (point.mapped || frame.plan.bounces) {
     const DifferentialLanes d = differentials();
     const V3d dpdx = transfer(d.origin_dx, d.direction_dx, distance, ray, s.normal);
@@ -86,7 +86,7 @@ HWY_INLINE PointLanes point_of(const Frame& frame, const HitLanes& hits, const R
   if (frame.plan.depths) take(point.t, odd.t);
   take(point.weight, odd.weight), take(point.view, odd.view), take(point.geometric, odd.geometric), take(point.normal, odd.normal);
   if (frame.plan.bounces) take(point.dpdx, odd.dpdx), take(point.dpdy, odd.dpdy);
-  if (!point.mapped) return;
+  if (!point.mapped || !odd.mapped) return;  // lanes without maps read nothing
   UvLanes& uv = point.uv;
   take(uv.u, odd.uv.u), take(uv.v, odd.uv.v), take(uv.whole_u, odd.uv.whole_u), take(uv.whole_v, odd.uv.whole_v);
   take(uv.du_dx, odd.uv.du_dx), take(uv.dv_dx, odd.uv.dv_dx), take(uv.du_dy, odd.uv.du_dy), take(uv.dv_dy, odd.uv.dv_dy);

@@ -47,7 +47,7 @@ struct UseLanes : MapLanes {
 };
 
 // Input: the derivatives of position by a pixel step. db1/dp = cross(e2, n) / |n|^2, db2/dp = cross(n, e1) / |n|^2.
-// tangents: whether those are wanted.
+// tangents: whether those are wanted, else 0.
 HWY_INLINE UvLanes resolve_uv(const SceneData& scene, const TriangleLanes& t, const SurfaceLanes& s, const V3d& dpdx, const V3d& dpdy,
                               bool tangents) {
   const CornerUv c = corner_uv(scene, t);
@@ -60,8 +60,8 @@ HWY_INLINE UvLanes resolve_uv(const SceneData& scene, const TriangleLanes& t, co
   g.u = g.u * scale, g.v = g.v * scale;
   uv.du_dx = to_f32(dot(g.u, dpdx)), uv.dv_dx = to_f32(dot(g.v, dpdx));
   uv.du_dy = to_f32(dot(g.u, dpdy)), uv.dv_dy = to_f32(dot(g.v, dpdy));
-  if (!tangents) return uv;
-  const UvTangents along = uv_tangents(c, s.edge1, s.edge2, s.normal);
+  const V3f none{F32::zero(), F32::zero(), F32::zero()};
+  const UvTangents along = tangents ? uv_tangents(c, s.edge1, s.edge2, s.normal) : UvTangents{none, none};
   uv.tangent_u = along.u, uv.tangent_v = along.v;
   return uv;
 }
