@@ -12,7 +12,8 @@ using bvh::Box;
 using bvh::box_of;
 using bvh::F4;
 
-// Boxes of leaves grow by this times kPartMargin of a triangle's extent, at most. Rotations and uniform scales need 3. Spheres count on it, too (PlacedPart).
+// Boxes of leaves grow by this times kPartMargin of a triangle's extent, at most. Rotations and uniform scales need 3. Spheres count
+// on it, too (PlacedPart).
 constexpr double kMostStretch = 16;
 // Boxes grow by at most this share of the part's extent on the way of a ray: the whole part is that much larger.
 constexpr double kMostSlack = 1.0 / 64;

@@ -11,7 +11,6 @@
 #include "frame/exact_hit.h"
 #include "frame/frame.h"
 #include "ray/exact_kernel.h"
-#include "ray/triangle_test.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -104,17 +103,6 @@ template <bool kAny> class ExactPacket {
   // Of any hit: the sphere that last stopped a ray. Where one packet is dark, the next often is by the same.
   const TreeSphere* stopper_ = nullptr;
 };
-
-// t of a triangle that the ray is known to meet, in units of its direction.
-HWY_NOINLINE double triangle_t(const SceneData& scene, const RayBatch& rays, int i, uint32_t primitive) {
-  float origin[3], direction[3], corner[9];
-  for (int k = 0; k < 3; ++k) origin[k] = rays.origin[k][i], direction[k] = rays.direction[k][i];
-  for (int v = 0; v < 3; ++v) std::copy_n(scene.vertices[scene.triangles[primitive].vertex[v]].position, 3, corner + 3 * v);
-  TraceRay ray;
-  double t = 0;
-  if (!prepare_ray(origin, direction, rays.t_max[i], ray) || !hit_triangle(ray, TriangleView{corner, 3, 1}, t)) return 0;
-  return t * (ray.direction_z / static_cast<double>(direction[ray.kz]));  // a power of two
-}
 
 void closest_exact_kernel(const Frame& frame, const ExactSet& set, const RayBatch& rays, double t_min, uint32_t* out) {
   ExactPacket<false> packet(set, t_min, frame.settings.culling == Culling::kBack);

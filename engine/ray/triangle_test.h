@@ -184,4 +184,12 @@ inline constexpr double kPartMargin = 0x1p-10;
   return true;
 }
 
+// hit_triangle() of a ray as it is given: t in units of its direction. corners: X, Y, Z of each vertex, in canonical order.
+inline bool meet_triangle(const float (&origin)[3], const float (&direction)[3], float t_max, const float (&corners)[9], double& t) {
+  TraceRay ray;
+  if (!prepare_ray(origin, direction, t_max, ray) || !hit_triangle(ray, TriangleView{corners, 3, 1}, t)) return false;
+  t *= ray.direction_z / static_cast<double>(direction[ray.kz]);  // a power of two
+  return true;
+}
+
 }  // namespace spanray

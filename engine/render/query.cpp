@@ -1,4 +1,5 @@
-// Questions outside of frames: one tree over all triangles (of two levels where frames would have them), asked by the tracer of frames (rays) and by ray/sweep.h (spheres).
+// Questions outside of frames: one tree over all triangles (of two levels where frames would have them), asked by the tracer of
+// frames (rays) and by ray/sweep.h (spheres).
 #include "spanray/query.h"
 
 #include <cmath>
@@ -13,9 +14,9 @@
 #include "raster/exact.h"
 #include "ray/bvh_data.h"
 #include "ray/sweep.h"
-#include "ray/triangle_test.h"
 #include "render/check_request.h"
 #include "render/make_frame.h"
+#include "render/query_hit.h"
 #include "shade/surface.h"
 
 namespace spanray {
@@ -46,7 +47,6 @@ const char* fault_of(const double (&center)[3], double radius) {
 }
 
 glm::dvec3 to_dvec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
-void store(const glm::dvec3& v, double (&out)[3]) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 RayBatch batch_of(std::span<const Ray> rays) {
   RayBatch batch;
@@ -57,14 +57,6 @@ RayBatch batch_of(std::span<const Ray> rays) {
     batch.pixel[i] = 0;
   }
   return batch;
-}
-
-// Without t_min, as the tracer sees it.
-ExactRay exact_ray(const Ray& r) {
-  ExactRay ray;
-  for (int k = 0; k < 3; ++k) ray.origin[k] = r.origin[k], ray.direction[k] = r.direction[k];
-  ray.t_max = r.t_max;
-  return ray;
 }
 
 // Runs a question under the default floating-point environment; what it throws becomes an error.
@@ -138,68 +130,13 @@ struct SceneQuery::Impl {
     return f;
   }
 
-  TriangleName name_of(uint32_t primitive) const {
-    const SceneData& data = scene.data();
-    TriangleName name;
-    name.triangle = primitive;
-    name.material_index = material_of(data, primitive);
-    name.material = data.material_names[name.material_index];
-    name.sphere = data.is_sphere(primitive), name.plane = data.is_plane(primitive);
-    if (!data.is_triangle(primitive)) return name;
-    const auto next = std::upper_bound(data.parts.begin(), data.parts.end(), primitive,
-                                       [](uint32_t p, const ScenePart& part) { return p < part.first; });
-    name.object = data.part_names[(next - 1)->object], name.group = data.part_names[(next - 1)->group];
-    return name;
-  }
-
-  // The hit of a ray with an exact primitive that it is known to meet.
-  RayHit hit_of(const ExactRay& ray, uint32_t primitive) const {
-    const SceneData& data = scene.data();
-    const ExactHitAt at = first_hit(ray, data, primitive);
-    RayHit hit;
-    hit.name = name_of(primitive), hit.t = at.t, hit.front = at.front, hit.distance = at.t * length3(ray.direction);
-    glm::dvec3 position = ray.origin + ray.direction * at.t, normal;
-    if (hit.name.plane) {
-      normal = normalize3(normal_of(data.plane(primitive)), glm::dvec3(0, 1, 0));
-    } else {
-      const glm::dvec3 center = center_of(data.sphere(primitive));
-      normal = normalize3(ray.origin - center + ray.direction * at.t, glm::dvec3(0, 1, 0));
-      position = center + normal * static_cast<double>(data.sphere(primitive).radius);
-    }
-    store(position, hit.position), store(normal, hit.normal);
-    return hit;
-  }
-
-  // The hit of a ray that is known to meet a primitive.
-  RayHit hit_of(const Ray& r, uint32_t primitive) const {
-    if (!scene.data().is_triangle(primitive)) return hit_of(exact_ray(r), primitive);
-    const Triangle& triangle = scene.data().triangles[primitive];
-    float corners[9];
-    glm::dvec3 v[3];
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) v[i][k] = corners[3 * i + k] = scene.data().vertices[triangle.vertex[i]].position[k];
-    RayHit hit;
-    hit.name = name_of(primitive);
-    TraceRay ray;
-    if (!prepare_ray(r.origin, r.direction, r.t_max, ray) || !hit_triangle(ray, TriangleView{corners, 3, 1}, hit.t)) return hit;
-    hit.t *= ray.direction_z / static_cast<double>(r.direction[ray.kz]);  // a power of two
-    const glm::dvec3 origin(r.origin[0], r.origin[1], r.origin[2]), direction(r.direction[0], r.direction[1], r.direction[2]);
-    hit.distance = hit.t * length3(direction);
-    store(origin + direction * hit.t, hit.position);
-    glm::dvec3 normal = normalize3(cross3(v[1] - v[0], v[2] - v[0]), glm::dvec3(0));
-    if ((triangle.bits & kTriangleFlipped) != 0) normal = -normal;
-    store(normal, hit.normal);
-    hit.front = facing(scene.data(), triangle, origin) >= 0;
-    return hit;
-  }
-
   // The same among hits at t_min or beyond: all hits are asked for, since the tracer knows no t_min.
   std::optional<RayHit> first_beyond(const Frame& f, const Ray& ray) const {
     FragmentList list;
     trace_all(f, bvh, batch_of({&ray, 1}), HitsOnEdges::kOfAll, list);
     std::optional<RayHit> best;
     for (const uint32_t primitive : list.primitive) {
-      const RayHit hit = hit_of(ray, primitive);
+      const RayHit hit = hit_of(scene.data(), ray, primitive);
       if (hit.t < static_cast<double>(ray.t_min)) continue;
       if (!best || hit.t < best->t || (hit.t == best->t && primitive < best->name.triangle)) best = hit;
     }
@@ -209,7 +146,7 @@ struct SceneQuery::Impl {
     uint32_t met = kNoPrimitive;
     closest_exact(f, bvh.data().exact, batch_of({&ray, 1}), beyond.t_min, &met);
     if (met == kNoPrimitive) return best;
-    const RayHit hit = hit_of(beyond, met);
+    const RayHit hit = hit_of(scene.data(), beyond, met);
     return best && shows_triangle(scene.data(), best->name.triangle, best->t, met, hit.t) ? best : hit;
   }
 
@@ -219,7 +156,7 @@ struct SceneQuery::Impl {
     std::vector<std::optional<RayHit>> hits(rays.size());
     for (size_t i = 0; i < rays.size(); ++i) {
       if (primitive[i] == kNoPrimitive) continue;
-      hits[i] = hit_of(rays[i], primitive[i]);
+      hits[i] = hit_of(scene.data(), rays[i], primitive[i]);
       if (hits[i]->t < static_cast<double>(rays[i].t_min)) hits[i] = first_beyond(f, rays[i]);
     }
     return hits;
@@ -311,9 +248,9 @@ Result<std::optional<RayHit>> SceneQuery::pixel(const Camera& camera, const Sett
       draw_exact(frame, bins, tile, 0, {{x, y, x + 1, y + 1}, 1, &primitive, &depth});
     }
     if (primitive == kNoPrimitive) return std::optional<RayHit>();
-    if (frame.scene->is_triangle(primitive)) return std::optional<RayHit>(impl_->hit_of(ray, primitive));
+    if (frame.scene->is_triangle(primitive)) return std::optional<RayHit>(hit_of(*frame.scene, ray, primitive));
     const ExactRay exact = primary_exact_ray(frame, x + frame.places.x[0], y + frame.places.y[0]);
-    RayHit hit = impl_->hit_of(exact, primitive);
+    RayHit hit = hit_of(*frame.scene, exact, primitive);
     hit.t -= camera.near_plane, hit.distance = hit.t * length3(exact.direction);
     return std::optional<RayHit>(hit);
   });
@@ -331,7 +268,7 @@ Result<std::optional<SweepHit>> SceneQuery::sweep(const SphereSweep& sphere) con
     const SphereHit first = sweep_sphere(impl_->scene.data(), impl_->bvh, start, end, sphere.radius);
     if (first.primitive == kNoPrimitive) return std::optional<SweepHit>();
     SweepHit hit;
-    hit.name = impl_->name_of(first.primitive);
+    hit.name = name_of(impl_->scene.data(), first.primitive);
     hit.time = first.contact.time, hit.distance = hit.time * length;
     store(start + motion * hit.time, hit.center);
     store(start + first.contact.point, hit.position);
@@ -347,7 +284,7 @@ Result<std::vector<SphereTouch>> SceneQuery::touching(const double (&center)[3],
     std::vector<SphereTouch> touches;
     for (const SphereHit& hit : touch_sphere(impl_->scene.data(), impl_->bvh, to_dvec(center), radius)) {
       SphereTouch touch;
-      touch.name = impl_->name_of(hit.primitive);
+      touch.name = name_of(impl_->scene.data(), hit.primitive);
       touch.distance = hit.distance;
       store(to_dvec(center) + hit.contact.point, touch.position);
       store(hit.contact.normal, touch.normal);

@@ -32,7 +32,7 @@ template <int kChannels, class Visit> HWY_INLINE void sample_map(const Materials
 
 // The texture of a map where all lanes have it, or nullptr.
 HWY_INLINE const PlainTexture* shared_texture(const Materials& g, int word) {
-  if (g.plain == nullptr || !g.material.uniform) return nullptr;
+  if (!g.material.uniform) return nullptr;
   const int32_t use = uniform_map(g, word);
   return use < 0 ? nullptr : &g.plain->open(*g.frame.scene, use);
 }
@@ -40,12 +40,11 @@ HWY_INLINE const PlainTexture* shared_texture(const Materials& g, int word) {
 // Finds in *g.sample where the map of this kind is read, if all lanes have one and its texture is plain; it may be there already.
 HWY_INLINE bool find_shared_sample(const Materials& g, const UvLanes& uv, const MapSlot& slot) {
   const Filter filter = g.frame.settings.filter;
-  if (g.plain == nullptr || !g.material.uniform || (g.frame.plan.maps & slot.bit) == 0 || filter == Filter::kNearest) return false;
-  const int32_t use = uniform_map(g, slot.word);
-  if (use < 0 || g.sample->use == use) return use >= 0;
-  const PlainTexture& texture = g.plain->open(*g.frame.scene, use);
-  if (texture.plain) find_plain_sample(texture, uv, g.valid, filter, *g.sample);
-  return texture.plain;
+  if ((g.frame.plan.maps & slot.bit) == 0 || filter == Filter::kNearest) return false;
+  const PlainTexture* const texture = shared_texture(g, slot.word);
+  if (texture == nullptr || !texture->plain) return false;
+  if (g.sample->use != texture->use) find_plain_sample(*texture, uv, g.valid, filter, *g.sample);
+  return true;
 }
 
 // visit(lanes that have a map of this kind, its color) if there are any.

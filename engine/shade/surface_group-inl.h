@@ -18,8 +18,8 @@ struct Materials {
   const Frame& frame;
   Mask valid;
   RecordLanes material;
-  PlainTextures* plain = nullptr;  // tables of textures; nullptr: the caller keeps none
-  PlainSample* sample = nullptr;   // with plain: the last that was found for this vector
+  PlainTextures* plain = nullptr;  // tables of textures: where maps are read
+  PlainSample* sample = nullptr;   // likewise: the last that was found for this vector
 };
 
 // kLanes entries of a batch, from `at` on. All lanes are stored, valid or not: clear_misses (resolve_kernel.cpp) comes last.
