@@ -16,8 +16,13 @@ function(spanray_contract_flags target)
   # One 1-lane fallback on every compiler (Highway would choose by compiler), SSE4, AVX2 and AVX-512 in every build.
   target_compile_definitions(${target} PRIVATE HWY_COMPILE_ALL_ATTAINABLE HWY_BROKEN_EMU128=1 HWY_BASELINE_TARGETS=HWY_SCALAR)
   if(SPANRAY_SANITIZE)
-    target_compile_definitions(${target} PRIVATE
-      SPANRAY_FEW_ISAS "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+    # simd/dispatch.h
+    if(SPANRAY_SANITIZE_AVX512)
+      target_compile_definitions(${target} PRIVATE SPANRAY_NO_SSE4 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_DL)")
+    else()
+      target_compile_definitions(${target} PRIVATE SPANRAY_NO_SSE4 SPANRAY_NO_AVX512
+        "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+    endif()
   else()
     target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
   endif()

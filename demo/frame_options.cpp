@@ -8,6 +8,7 @@
 
 #include "core/counted.h"
 #include "core/number_text.h"
+#include "render/check_request.h"
 #include "scene/scene_file.h"
 #include "spanray/settings_text.h"
 
@@ -154,6 +155,7 @@ void FrameOptions::add_without_techniques(CLI::App& command) {
   command.add_option_function<std::string>("--time", time, "Seconds: where moving parts stand")->type_name("S");
   add_number(command, "--threads", &Settings::threads, 0, kMaxThreads, "0: one per processor; changes no pixel");
   add_word(command, "--tree", &Settings::tree, "Trees for rays: built fast, or slowly and traced faster; changes no pixel");
+  add_word(command, "--light-grids", &Settings::light_grids, "What shadow rays may meet, found once for each light: from the second frame on, or always; changes no pixel");
   add_word(command, "--isa", &Settings::isa, "Instruction set; changes no pixel");
   command.add_option("--settings", settings_path_, "A file with a [technique], as `tune` writes it; "
                      "it goes over the scene's, other options go over it")
@@ -214,6 +216,14 @@ Result<Job> FrameOptions::load(const LoadProgress& progress) const {
   }
   throw UsageError("--camera: " + scene_path_ + " has no camera '" + camera_name_ + "'" + did_you_mean(camera_name_, names) +
                    "; it has " + known);
+}
+
+Result<Job> FrameOptions::load_to_see(const LoadProgress& progress) const {
+  Result<Job> job = load(progress);
+  if (!job) return job;
+  if (const Result<void> checked = check_camera(job.value().camera); !checked)
+    return Error{"no camera for this scene: " + checked.error().message, scene_path_};
+  return job;
 }
 
 }  // namespace spanray::demo

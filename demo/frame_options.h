@@ -38,6 +38,8 @@ class FrameOptions {
   bool camera_given() const { return camera_.has_value() || !camera_name_.empty(); }
   // Loads the scene and applies the options. Errors: of the loader. Throws UsageError where the scene lacks the camera named.
   Result<Job> load(const LoadProgress& progress = {}) const;
+  // The same for pictures: it is an error, too, if the camera is none, as one fitted to bounds that are too large or too small.
+  Result<Job> load_to_see(const LoadProgress& progress = {}) const;
 
  private:
   template <class E> void add_word(CLI::App& command, const std::string& name, E Settings::*field, const std::string& help,

@@ -173,6 +173,9 @@ void draw_times(const WalkSession& session) {
   if (!(stats.ms.bvh_build > 0)) return;
   std::snprintf(text, sizeof text, "trees for rays: %.0f ms, once; not part of a frame", stats.ms.bvh_build);
   muted(text);
+  if (!(stats.ms.light_grid_build > 0)) return;
+  std::snprintf(text, sizeof text, "light grids: %.0f ms, once; not part of a frame", stats.ms.light_grid_build);
+  muted(text);
 }
 
 void draw_camera(WalkSession& session, const PanelInput& input, PanelAction& action) {

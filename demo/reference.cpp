@@ -80,7 +80,7 @@ int reference(const ReferenceCommand& command) {
   check_usage(command, extension);
   for (const std::string& file : {command.out, command.mask})
     if (auto writable = file.empty() ? Result<void>() : check_writable(file); !writable) return fail(writable.error());
-  Result<Job> loaded = command.frame.load();
+  Result<Job> loaded = command.frame.load_to_see();
   if (!loaded) return fail(loaded.error());
   const Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);

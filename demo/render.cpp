@@ -115,7 +115,7 @@ Result<void> write_outputs(const Job& job, const RenderOptions& options, const F
 
 int render(const RenderOptions& options) {
   if (auto outputs = check_outputs(options); !outputs) return fail(outputs.error());
-  Result<Job> job = options.frame.load();
+  Result<Job> job = options.frame.load_to_see();
   if (!job) return fail(job.error());
   for (const std::string& text : job.value().messages) message(text);
   // Radiance and ladder are of the whole frame, whatever the picture shows of it.

@@ -91,7 +91,7 @@ int run_report(const ReportCommand& command) {
   if (command.hard_cases) return run_hard_report(command.hard, command.out);
   if (command.frame.scene_path().empty()) throw UsageError("report: SCENE is required");
   if (command.out.empty()) throw UsageError("report: --out is required");
-  Result<Job> job = command.frame.load();
+  Result<Job> job = command.frame.load_to_see();
   if (!job) return fail(job.error());
   if (job.value().scene.data().has_exact())
     return fail("report: the scene has spheres or planes, which the ambiguity mask does not model; `reference` and `compare` do without");

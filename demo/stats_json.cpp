@@ -36,7 +36,7 @@ Json stats_json(const Job& job, const Measurement& measured, uint64_t picture_ha
     for (const auto& [name, value] : frame.counts)
       if (name == "bvh_refits") refits += value;
       else if (name == "bvh_rebuilds") rebuilds += value;
-  out["trees"] = {{"refits", refits}, {"rebuilds", rebuilds}};
+  out["trees"] = {{"refits", refits}, {"rebuilds", rebuilds}, {"light_grid_build_ms", last.ms.light_grid_build}};
   out["memory_bytes"] = last.memory_bytes;
   out["isa"] = last.isa;
   out["threads"] = last.threads;

@@ -146,7 +146,7 @@ int run_tune(const TuneCommand& command) {
     throw UsageError("tune: --out would replace the scene, " + command.out);
   if (!command.out.empty())
     if (auto writable = check_writable(command.out); !writable) return fail(writable.error());
-  Result<Job> loaded = command.frame.load();
+  Result<Job> loaded = command.frame.load_to_see();
   if (!loaded) return fail(loaded.error());
   Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);

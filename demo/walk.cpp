@@ -45,7 +45,7 @@ int frames_of(const WalkOptions& options, const WalkJob& job) {
 }
 
 Result<WalkJob> load_walk(const WalkOptions& options, const LoadProgress& progress) {
-  Result<Job> job = options.frame.load(progress);
+  Result<Job> job = options.frame.load_to_see(progress);
   if (!job) return job.error();
   WalkJob walk{std::move(job.value()), {}};
   walk.path = walk.job.scene.data().camera_path;

@@ -191,7 +191,7 @@ void parse_pixel(const std::string& text, int& x, int& y) {
 int why(const WhyOptions& options) {
   int x = 0, y = 0;
   parse_pixel(options.pixel, x, y);
-  Result<Job> loaded = options.frame.load();
+  Result<Job> loaded = options.frame.load_to_see();
   if (!loaded) return fail(loaded.error());
   const Job& job = loaded.value();
   for (const std::string& text : job.messages) message(text);

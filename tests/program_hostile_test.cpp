@@ -45,6 +45,21 @@ TEST_F(ProgramHostile, RenderSaysWhatTheLoaderSays) {
   EXPECT_GE(rendered, 10);
 }
 
+TEST_F(ProgramHostile, ScenesTooLargeOrTooSmallForACameraAreNamed) {
+  const char* const kCorners[][2] = {{"1e25", "camera coordinate"}, {"1e-20", "near plane"}};
+  for (const auto& [corner, says] : kCorners) {
+    const std::string x(corner);
+    folder_.write("a.obj", "v 0 0 0\nv " + x + " 0 0\nv 0 " + x + " 0\nf 1 2 3\n");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"render", "a.obj", "--size", "8x8", "--hash"}, {"why", "a.obj", "1,1", "--size", "8x8"}}) {
+      const Ran r = run(command);
+      EXPECT_EQ(r.code, 1) << command[0];
+      EXPECT_NE(r.error.find("error: a.obj: no camera for this scene: " + std::string(says)), std::string::npos) << r.error;
+    }
+    EXPECT_EQ(run({"info", "a.obj"}).code, 0) << "it says how large the scene is";
+  }
+}
+
 TEST_F(ProgramHostile, CompareNamesTheFileThatItCannotRead) {
   for (const char* file : {"png/crc_data.png", "png/largest_interlaced_without_data.png", "compare/ladder_nested_closed.json",
                            "compare/ladder_only_overflow.json", "compare/cut.pfm"}) {

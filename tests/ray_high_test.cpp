@@ -206,11 +206,15 @@ TEST(RayHigh, TreesOfAFrameAreOfTheQualityAskedFor) {
   plan.flags.bvh = true, plan.material_flags = kNoFlags;
   RayTrees trees;
   for (const TreeQuality quality : {TreeQuality::kFast, TreeQuality::kHigh, TreeQuality::kFast}) {
-    trees.update(scene, plan, quality, {}, 0, parallel);
+    Settings settings;
+    settings.tree = quality;
+    trees.update(scene, plan, settings, {}, 0, parallel);
     EXPECT_EQ(tree_hash(*trees.opaque()), tree_hash(build(scene, quality)));
   }
   RayTrees moving;
-  moving.update(scene, plan, TreeQuality::kHigh, {{0, 10, 0}}, 0, parallel);
+  Settings high;
+  high.tree = TreeQuality::kHigh;
+  moving.update(scene, plan, high, {{0, 10, 0}}, 0, parallel);
   EXPECT_EQ(tree_hash(*moving.opaque()), tree_hash(build(scene, TreeQuality::kHigh, 2, true)));
 }
 

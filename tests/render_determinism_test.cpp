@@ -57,6 +57,7 @@ void render(const GoldenFrame& golden, const Scene& scene, Isa isa, int threads,
   settings.isa = isa;
   settings.threads = threads;
   settings.tree = threads == 7 ? TreeQuality::kHigh : TreeQuality::kFast;
+  settings.light_grids = threads == 1 ? LightGridUse::kNever : LightGridUse::kAlways;
   Renderer renderer;
   FrameRequest request;
   request.depth = request.primitive = true;

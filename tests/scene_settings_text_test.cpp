@@ -31,6 +31,7 @@ TEST(SettingsText, EveryValueHasOneWordAndTheWordGivesItBack) {
   check_round_trip<Powers>(2);
   check_round_trip<ShadingRate>(2);
   check_round_trip<TreeQuality>(2);
+  check_round_trip<LightGridUse>(3);
   check_round_trip<ShadowTerminator>(2);
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "math/elementary.h"
 #include "support/test_surfaces.h"
 
@@ -80,6 +83,50 @@ TEST(ShadeLight, EqualBitsForAnySplitOfTheBatch) {
       }
       EXPECT_TRUE(got == want) << isa_name(isa);
     }
+  }
+}
+
+// Few lights and many, more than a vector meets in one go; all of the scene or a part; all lit, or bits that stand apart.
+TEST(ShadeLight, LightsInOneGoAreOneAfterTheOther) {
+  constexpr int kSurfaces = 301;
+  for (const Shading shading : {Shading::kFlat, Shading::kGouraud, Shading::kPhong})
+    for (const bool bounce : {false, true}) {
+      auto t = make_test_surfaces(35, kSurfaces, shading, bounce);
+      TestRandom random(36);
+      std::vector<Light>& lights = t->scene().lights;
+      while (lights.size() < 40) lights.push_back(lights[lights.size() - 6]);
+      for (size_t i = 0; i < lights.size(); ++i) lights[i].intensity[0] = 0.1f * static_cast<float>(random.between(1, 20));
+      for (int i = 100; i < 140; ++i) t->surfaces.valid[i] = 0;
+      constexpr size_t kWords = (kSurfaces + 31) / 32 + 3;
+      std::vector<uint32_t> lit(kWords * lights.size());
+      for (uint32_t& w : lit) w = random.bits();
+      for (const Isa isa : supported_isas())
+        for (const int count : {0, 1, 2, 3, 6, 16, 17, 35})
+          for (const bool shadows : {false, true}) {
+            t->frame().isa = isa;
+            const LightRange range{count % 5, count, shadows ? lit.data() : nullptr, kWords};
+            TestRadiance want(kSurfaces), got(kSurfaces);
+            shade_ambient(t->frame(), t->surfaces, want.at().p);
+            for (int k = 0; k < count; ++k)
+              shade_light(t->frame(), t->surfaces, t->hits, range.first + k,
+                          shadows ? &lit[kWords * static_cast<size_t>(k)] : nullptr, want.at().p);
+            shade_lights(t->frame(), t->surfaces, t->hits, range, got.at().p);
+            EXPECT_TRUE(got == want) << isa_name(isa) << ", lights: " << count << ", shading " << static_cast<int>(shading);
+          }
+    }
+}
+
+// Scenes of exact primitives alone have no triangle whose corners could be read.
+TEST(ShadeLight, FlatVectorsWithoutAnyTriangleReadNone) {
+  auto t = make_test_surfaces(37, 100, Shading::kFlat, true);
+  std::fill_n(t->surfaces.valid, 100, 0u);
+  auto none = decltype(t->scene().triangles)();
+  std::swap(t->scene().triangles, none);
+  for (const Isa isa : supported_isas()) {
+    t->frame().isa = isa;
+    TestRadiance got(100);
+    shade_lights(t->frame(), t->surfaces, t->hits, {0, 6}, got.at().p);
+    EXPECT_TRUE(got == TestRadiance(100)) << isa_name(isa);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "ray_agreement.h"
 #include "render/frame_stats.h"
 #include "render/make_frame.h"
+#include "render/tile_hits.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
 
@@ -47,8 +48,8 @@ EmbreeFrame::EmbreeFrame(const Scene& scene, const Camera& camera, const Setting
 
 EmbreeFrame::~EmbreeFrame() = default;
 
-// One bit a surface: set where the light is seen, as render/tile_light.cpp has it.
-const uint32_t* EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& surfaces, int light, Worker& w) const {
+// As render/tile_light.cpp has it.
+void EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& surfaces, int light, Worker& w, uint32_t* lit) const {
   TileWorker& tile = w.tile;
   tile.clock.enter(kMaking);
   RayBatch& rays = tile.shadow_rays;
@@ -57,7 +58,6 @@ const uint32_t* EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& su
   make_shadow_rays(frame_, surfaces, light, rays, tile.surface_of_ray);
   const size_t words = static_cast<size_t>(rays.count) / 32 + 2;
   tile.occluded.resize(words);
-  tile.lit.assign(static_cast<size_t>(surfaces.count) / 32 + 2, 0);
   tile.clock.enter(TileStage::kShadowRays);
   asked.tracer.any(asked.modes.shadow, rays, tile.occluded.data());
   tile.clock.enter(kMaking);
@@ -67,47 +67,18 @@ const uint32_t* EmbreeFrame::find_lit(const Asked& asked, const SurfaceBatch& su
     trace_any(frame_, bvh_, rays, ours);
     w.errors.shadow += different_bits(rays.count, ours, tile.occluded.data());
   }
-  mark_lit(tile.surface_of_ray.data(), tile.occluded.data(), rays.count, tile.lit.data());
+  mark_lit(tile.surface_of_ray.data(), tile.occluded.data(), rays.count, lit);
   tile.clock.enter(TileStage::kShade);
-  return tile.lit.data();
 }
 
 // What a level's hits send to the eye goes to their slots, the background to all others.
 void EmbreeFrame::shade_level(const Asked& asked, const FrameJob& job, Worker& w, Level& level, bool primary) const {
   TileWorker& tile = w.tile;
   tile.clock.enter(TileStage::kShade);
-  if (primary) {
-    level.slot_of_hit.clear();
-    for (int slot = 0; slot < level.slots; ++slot)
-      if (level.primitive[slot] != kNoPrimitive) level.slot_of_hit.push_back(static_cast<uint32_t>(slot));
-  } else {
-    tile.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
-  }
-  const size_t hits = level.slot_of_hit.size();
-  level.hits.resize(static_cast<int>(hits), true);
-  level.hits.rays = primary ? nullptr : &level.rays;
-  for (size_t i = 0; i < hits; ++i) {
-    const uint32_t slot = level.slot_of_hit[i];
-    level.hits.ray[i] = slot, level.hits.pixel[i] = level.pixel[slot], level.hits.primitive[i] = level.primitive[slot];
-  }
+  compact_hits(frame_, level, primary);
   resolve_surfaces(frame_, level.hits, level.surfaces);
-  float* radiance[3];
-  for (int c = 0; c < 3; ++c) {
-    tile.radiance[c].resize(hits + 64);  // whole vectors are written
-    radiance[c] = tile.radiance[c].data();
-  }
-  shade_ambient(frame_, level.surfaces, radiance);
-  for (int light = 0; hits > 0 && light < static_cast<int>(frame_.scene->lights.size()); ++light) {
-    const uint32_t* const lit = frame_.plan.shadow_rays ? find_lit(asked, level.surfaces, light, w) : nullptr;
-    shade_light(frame_, level.surfaces, level.hits, light, lit, radiance);
-  }
-  std::fill_n(level.opaque_t.data(), level.slots, std::numeric_limits<float>::infinity());
-  for (int c = 0; c < 3; ++c) std::fill_n(level.radiance[c].data(), level.slots, job.frame.scene->background[c]);
-  for (size_t i = 0; i < hits; ++i) {
-    const uint32_t slot = level.slot_of_hit[i];
-    level.opaque_t[slot] = level.surfaces.t[i];
-    for (int c = 0; c < 3; ++c) level.radiance[c][slot] = radiance[c][i];
-  }
+  light_surfaces_by(frame_, tile, level.surfaces, level.hits, [&](int light, uint32_t* lit) { find_lit(asked, level.surfaces, light, w, lit); });
+  if (!job.keeps_radiance_of_hits()) scatter_hits(frame_, tile, level);
 }
 
 // Mirror rays and what they hit. Returns false if there is none.
@@ -174,6 +145,8 @@ void EmbreeFrame::render_chunk(const Asked& asked, const FrameJob& job, const Ch
 }
 
 void EmbreeFrame::render_all(const Asked& asked, Framebuffer& out, const FrameRequest& request) {
+  frame_.plan = plan_.flags;
+  leave_out_unread(request, *frame_.scene, frame_.settings.shading, frame_.plan);  // as for our frame
   resize_output(frame_.settings, request, out);
   for (const auto& w : workers_) w->reset();
   const FrameJob job{frame_, nullptr, nullptr, nullptr, out, request};

@@ -54,7 +54,7 @@ class EmbreeFrame {
   void render_chunk(const Asked& asked, const FrameJob& job, const Chunk& chunk, Worker& w) const;
   void trace_primary(const Asked& asked, Worker& w) const;
   void shade_level(const Asked& asked, const FrameJob& job, Worker& w, Level& level, bool primary) const;
-  const uint32_t* find_lit(const Asked& asked, const SurfaceBatch& surfaces, int light, Worker& w) const;
+  void find_lit(const Asked& asked, const SurfaceBatch& surfaces, int light, Worker& w, uint32_t* lit) const;
   bool start_bounce(const Asked& asked, const Level& level, Level& next, Worker& w) const;
 
   Plan plan_;

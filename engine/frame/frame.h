@@ -21,6 +21,7 @@ struct PlanFlags {
   bool coarse_quads = false;  // render/coarse_quads.h
   bool depths = true, weights = true, normals = true, views = true;  // somebody reads these fields of surfaces (t, weight, normal, view)
   bool surfaces = true;       // somebody asks for stored surfaces (shade/surface.h) themselves
+  bool light_grids = false;   // shadow rays ask those, once they are there
   bool lifted_rays = false;   // shadow rays above coarse triangles (Settings::shadow_terminator), and some triangle's corners differ
   uint32_t maps = 0;  // MaterialMaps that some material has
 };

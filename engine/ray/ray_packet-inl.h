@@ -107,19 +107,20 @@ HWY_INLINE uint32_t mend_raw(RawRays& r) {
   return bits;
 }
 
-// The triangles that n rays leave.
-HWY_INLINE void load_from(const RayBatch& rays, int first, int n, RayPacket& p) {
-  p.from = i32(kNoPrimitive), p.all_from = kNoPrimitive;
-  if (rays.from.empty()) return;
+// The triangles that n rays leave; the other lanes repeat the first.
+HWY_INLINE I32 from_lanes(const RayBatch& rays, int first, int n) {
+  if (rays.from.empty()) return i32(kNoPrimitive);
   const uint32_t* const from = rays.from.data() + first;
-  if (n == kLanes) {
-    p.from = I32::load(from);
-  } else {
-    alignas(64) uint32_t lanes[kLanes];
-    for (int i = 0; i < kLanes; ++i) lanes[i] = from[i < n ? i : 0];
-    p.from = I32::load(lanes);
-  }
-  if (all(p.from == i32(from[0]))) p.all_from = from[0];
+  if (n == kLanes) return I32::load(from);
+  alignas(64) uint32_t lanes[kLanes];
+  for (int i = 0; i < kLanes; ++i) lanes[i] = from[i < n ? i : 0];
+  return I32::load(lanes);
+}
+
+HWY_INLINE void load_from(const RayBatch& rays, int first, int n, RayPacket& p) {
+  p.from = from_lanes(rays, first, n);
+  const uint32_t all_from = static_cast<uint32_t>(first_lane(p.from));
+  p.all_from = all(p.from == i32(all_from)) ? all_from : kNoPrimitive;
 }
 
 // What prepare_ray() finds out about one axis: d is the scaled direction.

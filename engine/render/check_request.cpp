@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/number_text.h"
+#include "scene/default_view.h"
 #include "simd/isa.h"
 
 namespace spanray {
@@ -15,21 +16,20 @@ Error out_of_range(const char* what, const std::string& value, const std::string
   return Error{std::string(what) + " " + value + " is out of range: " + range};
 }
 
+}  // namespace
+
 Result<void> check_camera(const Camera& c) {
   if (!finite3(c.eye) || !finite3(c.target) || !finite3(c.up)) return Error{"the camera has a coordinate that is not finite"};
   if (c.eye[0] == c.target[0] && c.eye[1] == c.target[1] && c.eye[2] == c.target[2])
     return Error{"the camera's eye and target coincide"};
-  // Squares of larger numbers overflow nothing yet, but leave no digits for a picture.
   for (const double x : {c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2]})
-    if (std::fabs(x) > 1e18) return out_of_range("camera coordinate", number_text(x), "at most 1e18");
+    if (std::fabs(x) > kMaxCameraCoordinate) return out_of_range("camera coordinate", number_text(x), "at most 1e18");
   if (!(c.fov_y_degrees >= kMinFovDegrees && c.fov_y_degrees <= kMaxFovDegrees))
     return out_of_range("field of view", number_text(c.fov_y_degrees), "0.01 to 179 degrees");
   if (!(c.near_plane >= 1e-18 && c.near_plane <= 1e18))
     return out_of_range("near plane", number_text(c.near_plane), "1e-18 to 1e18");
   return {};
 }
-
-}  // namespace
 
 Result<void> check_request(const Scene& scene, const Camera& camera, const Settings& s) {
   if (!scene.valid()) return Error{"no scene was loaded"};

@@ -4,6 +4,7 @@
 
 namespace spanray {
 
+Result<void> check_camera(const Camera& camera);
 Result<void> check_request(const Scene& scene, const Camera& camera, const Settings& settings);
 
 }  // namespace spanray

@@ -135,6 +135,11 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
             "highlights take powers of 9 bits", "no lit material has a highlight");
   f.shadow_rays = lines.add("shadow rays", s.shadows == Shadows::kRay, "switched off", lit,
                             "every light casts ray-traced shadows", "nothing is lit");
+  const bool fixed = parts == 0 && !scene.light_follows_eye;
+  f.light_grids = lines.add("light grids", f.shadow_rays && s.light_grids != LightGridUse::kNever, f.shadow_rays ? "switched off" : "no shadow ray is traced", fixed,
+                            std::string("shadow rays meet only what stands between a part of the scene and a light, if trees have one level") +
+                                (s.light_grids == LightGridUse::kAuto ? "; from the second frame on" : ""),
+                            parts > 0 ? "something moves" : "the light follows the eye");
   const bool lifted = s.shadow_terminator == ShadowTerminator::kLifted;
   f.lifted_rays = lines.add("lifted shadow rays", lifted && s.shading != Shading::kFlat,
                             lifted ? "flat shading interpolates no normals" : "switched off", lit && use.any_smooth,
@@ -152,6 +157,15 @@ Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& s) {
   f.translucent_bvh = lines.add("translucent BVH", f.translucents, "no material is translucent", f.bounces || f.primary_rays,
                                 "rays see translucent surfaces", "only the rasterizer sees translucent surfaces");
   return plan;
+}
+
+void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shading shading, PlanFlags& plan) {
+  const bool all = request.ladder != nullptr;
+  plan.depths = all || plan.translucents || request.depth;
+  plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
+  plan.views = all || plan.bounces || shading == Shading::kPhong || scene.has_exact();
+  plan.normals = plan.views || request.normal;
+  plan.surfaces = all || request.normal || request.uv;
 }
 
 }  // namespace spanray

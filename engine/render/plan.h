@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "spanray/render.h"
 #include "spanray/stats.h"
 
 namespace spanray {
@@ -23,5 +24,8 @@ struct SceneUse {
 SceneUse find_scene_use(const SceneData& scene);
 
 Plan make_plan(const SceneData& scene, const SceneUse& use, const Settings& settings);
+
+// The plan does not know what else the caller asks for: what surfaces need not have.
+void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shading shading, PlanFlags& plan);
 
 }  // namespace spanray

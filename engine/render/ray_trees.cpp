@@ -1,16 +1,17 @@
 #include "render/ray_trees.h"
 
 #include <algorithm>
+#include <new>
 
 #include "core/timed.h"
 
 namespace spanray {
 
-RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQuality quality, const std::vector<MovingRun>& moving,
-                                uint64_t poses, Parallel& parallel) {
-  if (flags_ != plan.material_flags || quality_ != quality) {
+RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, const Settings& settings,
+                                const std::vector<MovingRun>& moving, uint64_t poses, Parallel& parallel) {
+  if (flags_ != plan.material_flags || quality_ != settings.tree) {
     clear();
-    flags_ = plan.material_flags, quality_ = quality;
+    flags_ = plan.material_flags, quality_ = settings.tree;
   }
   Work work;
   const auto build = [&](uint32_t value, Tree& tree) {
@@ -36,6 +37,20 @@ RayTrees::Work RayTrees::update(const SceneData& scene, const Plan& plan, TreeQu
   };
   follow(plan.flags.bvh, 0, opaque_);
   follow(plan.flags.translucent_bvh, kMaterialTranslucent, translucent_);
+  if (settings.light_grids == LightGridUse::kNever) grids_.reset();
+  if (plan.flags.light_grids && !grids_ && (asked_grids_ || settings.light_grids == LightGridUse::kAlways)) {
+    std::unique_ptr<LightGrids> built;
+    grids_build_ms_ = timed_ms([&] {
+      try {
+        built = std::make_unique<LightGrids>(scene, flags_.data(), *opaque_.bvh, parallel);
+      } catch (const std::bad_alloc&) {  // the tree answers as well
+        built = std::make_unique<LightGrids>();
+      }
+    });
+    work.first_build_ms += grids_build_ms_;
+    grids_ = std::move(built);
+  }
+  asked_grids_ = asked_grids_ || plan.flags.light_grids;
   return work;
 }
 
@@ -43,18 +58,22 @@ RayTrees::Makeup RayTrees::makeup() const {
   Makeup all;
   for (const Tree* tree : {&opaque_, &translucent_})
     if (tree->bvh) all.levels = std::max(all.levels, tree->bvh->levels()), all.instances = std::max(all.instances, tree->bvh->instance_count());
-  all.bytes = memory_bytes();
+  all.bytes = tree_bytes();
   return all;
 }
 
 RayTrees::Makeup tree_makeup(const SceneData& scene, const Settings& settings) {
   Parallel parallel(settings.threads);
   RayTrees trees;
-  trees.update(scene, make_plan(scene, find_scene_use(scene), settings), settings.tree, scene.moving_triangles, 0, parallel);
+  Settings trees_only = settings;
+  trees_only.light_grids = LightGridUse::kNever;
+  trees.update(scene, make_plan(scene, find_scene_use(scene), trees_only), trees_only, scene.moving_triangles, 0, parallel);
   return trees.makeup();
 }
 
-size_t RayTrees::memory_bytes() const {
+size_t RayTrees::memory_bytes() const { return tree_bytes() + (grids_ ? grids_->memory_bytes() : 0); }
+
+size_t RayTrees::tree_bytes() const {
   size_t bytes = 0;
   for (const Tree* tree : {&opaque_, &translucent_}) {
     if (tree->bvh) bytes += tree->bvh->memory_bytes();

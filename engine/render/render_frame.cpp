@@ -29,16 +29,6 @@ void hash_vertices(const ScreenVertices& v, Ladder& ladder) {
   ladder.set(Rung::kVertices, hash.value());
 }
 
-// The plan does not know what else the caller asks for.
-void leave_out_unread(const FrameRequest& request, const SceneData& scene, Shading shading, PlanFlags& plan) {
-  const bool all = request.ladder != nullptr;
-  plan.depths = all || plan.translucents || request.depth;
-  plan.weights = all || (plan.lit_vertices && plan.bounces) || plan.lifted_rays || request.uv;
-  plan.views = all || plan.bounces || shading == Shading::kPhong || scene.has_exact();
-  plan.normals = plan.views || request.normal;
-  plan.surfaces = all || request.normal || request.uv;
-}
-
 }  // namespace
 
 // What lives from frame to frame: threads, buffers, trees, the scene as it stands now. Trees are rebuilt when the scene or
@@ -98,7 +88,7 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   Plan plan = make_plan(scene.data(), use, settings);
   leave_out_unread(request, scene.data(), settings.shading, plan.flags);
   if (plan.flags.motion) stats.ms.pose = timed_ms([&] { poses += posed->pose(settings.time, *parallel); });
-  const RayTrees::Work followed = trees.update(standing(), plan, settings.tree, scene.data().moving_triangles, poses, *parallel);
+  const RayTrees::Work followed = trees.update(standing(), plan, settings, scene.data().moving_triangles, poses, *parallel);
 
   const Frame frame = make_frame(standing(), camera, settings, plan, *parallel);
   resize_output(settings, request, out);
@@ -123,13 +113,14 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   if (scene.data().has_exact()) stats.ms.bin += timed_ms([&] { bin_exact(frame, exact); });
   for (const auto& w : workers) w->counts = {}, w->clock.reset();
   const FrameJob job{frame, plan.flags.raster ? &bins : nullptr, trees.opaque(), trees.translucent(), out, request,
-                     scene.data().has_exact() ? &exact : nullptr};
+                     scene.data().has_exact() ? &exact : nullptr, trees.grids()};
   parallel->for_each(static_cast<size_t>(frame.grid.count()), [&](size_t tile, int worker) {
     render_tile(job, static_cast<int>(tile), *workers[static_cast<size_t>(worker)]);
   });
 
   stats.ms.bvh_refit = followed.refit_ms;
   stats.ms.bvh_build = trees.build_ms();
+  stats.ms.light_grid_build = trees.grids_build_ms();
   stats.ms.frame = (seconds_now() - start) * 1e3 - followed.first_build_ms;  // of a scene once; it stands in bvh_build
   counts.bvh_refits = followed.refits, counts.bvh_rebuilds = followed.rebuilds;
   add_worker_stats(workers, parallel->threads(), counts, stats);
@@ -139,6 +130,9 @@ FrameStats Renderer::Impl::render(const Camera& camera, const Settings& settings
   stats.counts.emplace_back("bvh_levels", static_cast<uint64_t>(traced.levels));
   stats.counts.emplace_back("bvh_instances", traced.instances);
   stats.counts.emplace_back("bvh_bytes", traced.bytes);
+  const LightGrids* const grids = plan.flags.light_grids ? trees.grids() : nullptr;
+  stats.counts.emplace_back("light_grids", grids != nullptr ? grids->count() : 0);
+  stats.counts.emplace_back("light_grid_bytes", grids != nullptr ? grids->memory_bytes() : 0);
   stats.memory_bytes = memory_bytes();
   stats.isa = isa_name(frame.isa);
   stats.threads = parallel->threads();

@@ -2,13 +2,12 @@
 #include "render/tile.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "frame/ladder.h"
 #include "raster/raster.h"
-#include "render/slots_kernel.h"
 #include "render/tile_exact.h"
+#include "render/tile_hits.h"
 #include "render/tile_ladder.h"
 #include "render/tile_light.h"
 #include "render/tile_output.h"
@@ -20,8 +19,6 @@ int chunk_rows(const Frame& frame) {
   const bool every_sample = frame.places.count > 1 && frame.settings.antialiasing == Antialiasing::kSupersample;
   return every_sample ? kChunkRows / frame.places.count : kChunkRows;
 }
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, Level& level) {
   if (job.bins != nullptr) {
@@ -35,60 +32,6 @@ void find_primary_hits(const FrameJob& job, const Chunk& chunk, TileWorker& w, L
   } else {
     std::fill_n(level.primitive.data(), level.slots, kNoPrimitive);
   }
-}
-
-// The slots of primary rays that hit something, with what they hit.
-void pick_hits(const FrameJob& job, Level& level) {
-  const size_t slots = static_cast<size_t>(level.slots);
-  level.slot_of_hit.resize(slots);
-  level.hits.resize(level.slots, false);
-  const int hits = pick_slots(job.frame.isa, level.primitive.data(), level.pixel.data(), level.slots, level.slot_of_hit.data(),
-                              level.hits.primitive.data(), level.hits.pixel.data());
-  level.slot_of_hit.resize(static_cast<size_t>(hits));
-  level.hits.resize(hits, false);
-}
-
-// The slots of other rays that hit something, grouped by what they hit.
-void group_hits(TileWorker& w, Level& level) {
-  w.order.group(level.primitive.data(), level.slots, level.slot_of_hit);
-  const size_t n = level.slot_of_hit.size();
-  level.hits.resize(static_cast<int>(n), true);
-  for (size_t i = 0; i < n; ++i) {
-    const uint32_t slot = level.slot_of_hit[i];
-    level.hits.ray[i] = slot, level.hits.pixel[i] = level.pixel[slot], level.hits.primitive[i] = level.primitive[slot];
-  }
-}
-
-// The slots that hit something, as a batch: shading works on these only. Slots of primary rays are neighbours in the picture.
-void compact_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
-  if (primary) pick_hits(job, level);
-  else group_hits(w, level);
-  const AlignedBuffer<uint32_t>& place = level.shading_place.empty() ? level.place : level.shading_place;
-  level.hits.place.resize(place.empty() ? 0 : level.slot_of_hit.size());
-  for (size_t i = 0; i < level.hits.place.size(); ++i) level.hits.place[i] = place[level.slot_of_hit[i]];
-  level.hits.rays = primary ? nullptr : &level.rays;
-  level.hits.pad();
-}
-
-// What a batch of hits says, to their slots; what misses say, to all others.
-void scatter_hits(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
-  if (primary && level.hits.count == level.slots) {  // hits are then slots
-    for (int c = 0; c < 3; ++c) std::swap(level.radiance[c], w.radiance[c]);
-    if (job.frame.plan.depths) std::copy_n(level.surfaces.t, level.slots, level.opaque_t.data());
-    return;
-  }
-  const float* from[4] = {w.radiance[0].data(), w.radiance[1].data(), w.radiance[2].data(), level.surfaces.t};
-  float* to[4] = {level.radiance[0].data(), level.radiance[1].data(), level.radiance[2].data(), level.opaque_t.data()};
-  const float* const background = job.frame.scene->background;
-  const float miss[4] = {background[0], background[1], background[2], kInfinity};
-  const int fields = job.frame.plan.depths ? 4 : 3;
-  if (primary) {
-    for (int k = 0; k < fields; ++k) spread_hits(job.frame.isa, level.primitive.data(), level.slots, from[k], miss[k], to[k]);
-    return;
-  }
-  for (int k = 0; k < fields; ++k) std::fill_n(to[k], level.slots, miss[k]);
-  for (int i = 0; i < level.hits.count; ++i)
-    for (int k = 0; k < fields; ++k) to[k][level.slot_of_hit[i]] = from[k][i];
 }
 
 // shaded: SurfaceBatch or DirectCounts.
@@ -118,11 +61,11 @@ void shade_slots(const FrameJob& job, TileWorker& w, Level& level) {
 void shade_opaque(const FrameJob& job, TileWorker& w, Level& level, bool primary) {
   w.clock.enter(TileStage::kShade);
   if (can_shade_direct(job.frame)) return shade_slots(job, w, level);
-  compact_hits(job, w, level, primary);
+  compact_hits(job.frame, level, primary);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   count_lanes(job.frame, level.surfaces, w.counts);
   light_surfaces(job, w, level.surfaces, level.hits);
-  if (!job.keeps_radiance_of_hits()) scatter_hits(job, w, level, primary);
+  if (!job.keeps_radiance_of_hits()) scatter_hits(job.frame, w, level);
 }
 
 // The tile's rasterized fragments that lie in this chunk, with their slots.
@@ -223,7 +166,7 @@ void finish_quads(const FrameJob& job, TileWorker& w, Level& level) {
   if (!job.request.depth && !job.request.normal && !job.request.uv) return;
   w.clock.enter(TileStage::kShade);
   level.shading_place.clear();
-  compact_hits(job, w, level, true);
+  compact_hits(job.frame, level, true);
   resolve_surfaces(job.frame, level.hits, level.surfaces);
   for (int i = 0; i < level.hits.count; ++i) level.opaque_t[level.slot_of_hit[i]] = level.surfaces.t[i];
 }
@@ -336,7 +279,7 @@ size_t Level::memory_bytes() const {
 size_t TileWorker::memory_bytes() const {
   size_t bytes = sizeof(TileWorker) + fragments.memory_bytes() + chunk_fragments.memory_bytes() + shadow_rays.memory_bytes() +
                  surface_of_ray.bytes() + occluded.bytes() + lit.bytes() + fragment_hits.memory_bytes() + fragment_slot.bytes() +
-                 fragment_surfaces.memory_bytes() + order.memory_bytes() + pixel_order.memory_bytes() + row_t.bytes() + row_primitive.bytes() +
+                 fragment_surfaces.memory_bytes() + pixel_order.memory_bytes() + row_t.bytes() + row_primitive.bytes() +
                  encoded.bytes() + encoded_hits.bytes();
   for (int c = 0; c < 3; ++c) bytes += radiance[c].bytes() + row_radiance[c].bytes();
   if (samples) bytes += samples->memory_bytes();

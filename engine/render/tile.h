@@ -6,8 +6,8 @@
 #include "frame/frame.h"
 #include "raster/exact.h"
 #include "ray/bvh.h"
+#include "ray/light_grid.h"
 #include "render/coarse_quads.h"
-#include "render/hit_order.h"
 #include "render/pixel_order.h"
 #include "render/stage_clock.h"
 #include "render/tile_samples.h"
@@ -68,7 +68,6 @@ struct TileWorker {
   PixelOrder pixel_order;                         // of a chunk's pixels; with one sample a pixel, of the slots of level 0
   AlignedBuffer<float> row_radiance[3], row_t;    // results of level 0 row by row, where they are asked for
   AlignedBuffer<uint32_t> row_primitive, encoded, encoded_hits;
-  HitOrder order;                                 // of hits of bounce rays
   FrameCounts counts;
   StageClock clock;
   size_t memory_bytes() const;
@@ -83,6 +82,7 @@ struct FrameJob {
   Framebuffer& out;
   const FrameRequest& request;
   const ExactBins* exact = nullptr;  // only if the scene has exact primitives
+  const LightGrids* grids = nullptr;  // for shadow rays; nullptr: none
 
   // For arrays besides the bytes of the picture.
   bool asks_for_more() const {

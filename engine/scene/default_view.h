@@ -4,6 +4,9 @@
 
 namespace spanray {
 
+// Of eye and target, either way: squares of larger numbers overflow nothing yet, but leave no digits for a picture.
+inline constexpr double kMaxCameraCoordinate = 1e18;
+
 // Distance of the near plane for a scene: 1e-3 of the diagonal of its bounds.
 double fitted_near_plane(const SceneData& scene);
 

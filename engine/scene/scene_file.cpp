@@ -7,6 +7,7 @@
 #include "catalog/catalog.h"
 #include "core/read_file.h"
 #include "math/vec.h"
+#include "scene/default_view.h"
 #include "scene/toml_table.h"
 
 namespace spanray {
@@ -38,8 +39,9 @@ int line_of_dots(std::string_view text) {
 }
 
 void read_view(TomlTable& t, Camera& camera, bool* near_given) {
-  if (t.require("eye")) t.vector3("eye", kAnyNumber, camera.eye);
-  if (t.require("target")) t.vector3("target", kAnyNumber, camera.target);
+  constexpr Range kPlace = {-kMaxCameraCoordinate, kMaxCameraCoordinate};
+  if (t.require("eye")) t.vector3("eye", kPlace, camera.eye);
+  if (t.require("target")) t.vector3("target", kPlace, camera.target);
   t.vector3("up", kAnyNumber, camera.up);
   t.number("fov_y", {kMinFovDegrees, kMaxFovDegrees}, &camera.fov_y_degrees);
   if (t.number("near", {1e-12, 1e12}, &camera.near_plane)) *near_given = true;

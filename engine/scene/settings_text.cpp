@@ -26,6 +26,8 @@ constexpr EnumName<Normals> kNormalsNames[] = {{Normals::kInterpolated, "interpo
 constexpr EnumName<Powers> kPowersNames[] = {{Powers::kFast, "fast"}, {Powers::kExact, "exact"}};
 constexpr EnumName<ShadingRate> kShadingRateNames[] = {{ShadingRate::k2x2, "2x2"}, {ShadingRate::k1x1, "1x1"}};
 constexpr EnumName<TreeQuality> kTreeQualityNames[] = {{TreeQuality::kFast, "fast"}, {TreeQuality::kHigh, "high"}};
+constexpr EnumName<LightGridUse> kLightGridUseNames[] = {
+    {LightGridUse::kAuto, "auto"}, {LightGridUse::kNever, "never"}, {LightGridUse::kAlways, "always"}};
 constexpr EnumName<ShadowTerminator> kShadowTerminatorNames[] = {{ShadowTerminator::kOff, "off"},
                                                                  {ShadowTerminator::kLifted, "lifted"}};
 
@@ -99,6 +101,10 @@ std::span<const EnumName<ShadingRate>> enum_names<ShadingRate>() {
 template <>
 std::span<const EnumName<TreeQuality>> enum_names<TreeQuality>() {
   return kTreeQualityNames;
+}
+template <>
+std::span<const EnumName<LightGridUse>> enum_names<LightGridUse>() {
+  return kLightGridUseNames;
 }
 template <>
 std::span<const EnumName<ShadowTerminator>> enum_names<ShadowTerminator>() {

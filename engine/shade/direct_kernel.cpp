@@ -62,15 +62,6 @@ HWY_NOINLINE void apply_textures(const Frame& frame, PlainTextures& plain, Shade
   apply_maps(materials_of(frame, plain, s), s.uv, s.m, false);
 }
 
-HWY_INLINE Vec ambient_of(const Frame& frame, const MaterialLanes& m) {
-  const float* const ambient = frame.scene->ambient_radiance;
-  Vec sum{F32::zero(), F32::zero(), F32::zero()};
-  if (frame.plan.emission) sum = as_vec3(m.emission);
-  if (!frame.plan.ambient) return sum;
-  return {mul_add(m.ambient.x, f32(ambient[0]), sum.x), mul_add(m.ambient.y, f32(ambient[1]), sum.y),
-          mul_add(m.ambient.z, f32(ambient[2]), sum.z)};
-}
-
 // Where the texture of most maps is read, before any is.
 HWY_INLINE void find_sample(const Frame& frame, PlainTextures& plain, Shaded& s) {
   s.sample.use = -1;
@@ -82,7 +73,7 @@ HWY_INLINE void add_material(const Frame& frame, PlainTextures& plain, Shaded& s
   if (frame.plan.normals) s.normal = clamp_to_horizon(s.normal, s.geometric);
   s.m = constants_of(materials_of(frame, plain, s));
   if (frame.plan.textures) apply_textures(frame, plain, s);
-  s.radiance = ambient_of(frame, s.m);
+  s.radiance = light_lanes::ambient_radiance(frame, as_vec3(s.m.ambient), as_vec3(s.m.emission));
 }
 
 // Light on vectors that go together, stage by stage: what waits for itself, roots, quotients and powers, then overlaps.
@@ -107,14 +98,12 @@ template <class Kind> struct OneLight {
   HWY_INLINE void reflect(Shaded& s, const Met& met) const {
     const Site site = site_of(s);
     const Vec direction = Kind::incidence(lanes, site.position).direction;
-    add(s, met.active, light_lanes::reflect_light(frame, site, direction, met, s.material, s.m.shininess), met.specular);
+    const auto models = light_lanes::models_of(*frame.scene, select(met.active, s.material, I32::zero()));
+    add(s, met.active, light_lanes::reflect_light(frame, site, direction, met, models, s.m.shininess), met.specular);
   }
 
   HWY_INLINE void add(Shaded& s, Mask active, const light_lanes::Reflected& factor, bool specular) const {
-    using light_lanes::plus_light;
-    s.radiance = {plus_light(s.radiance.x, active, light.intensity[0], factor, s.m.diffuse.x, s.m.specular.x, specular),
-                  plus_light(s.radiance.y, active, light.intensity[1], factor, s.m.diffuse.y, s.m.specular.y, specular),
-                  plus_light(s.radiance.z, active, light.intensity[2], factor, s.m.diffuse.z, s.m.specular.z, specular)};
+    s.radiance = light_lanes::plus_light(s.radiance, active, light, factor, as_vec3(s.m.diffuse), as_vec3(s.m.specular), specular);
   }
 
   // carried: diffuse and specular factors of the first vector; those of the next stand `stride` floats behind.
@@ -226,7 +215,7 @@ class DirectShader {
 
 }  // namespace
 
-// Contract: bits of resolve(), shade_ambient_kernel() and the kernels of light: the same functions of the same values.
+// Contract: bits of resolve() and the kernels of light: the same functions of the same values.
 DirectCounts shade_direct(const Frame& frame, const HitBatch& hits, AlignedBuffer<float>& planes, float* const radiance[3], float* t) {
   return DirectShader(frame, hits, planes, radiance, t).shade();
 }

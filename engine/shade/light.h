@@ -14,6 +14,18 @@ void make_shadow_rays(const Frame& frame, const SurfaceBatch& surfaces, int ligh
 // they would start (SurfaceBatch::lift). Surfaces that something hides there must lose their lift: else light would pass through it.
 void make_lift_rays(const Frame& frame, const SurfaceBatch& surfaces, RayBatch& rays, AlignedBuffer<uint32_t>& surface_of_ray);
 
+// Lights of the scene in a row, and which surfaces each of them reaches.
+struct LightRange {
+  int first = 0, count = 0;
+  const uint32_t* lit = nullptr;  // one bit a surface (32 a word), nullptr: all lit
+  size_t words = 0;               // from the bits of one light to those of the next
+  const uint32_t* bits(int k) const { return lit == nullptr ? nullptr : lit + static_cast<size_t>(k) * words; }
+};
+
+// radiance[c][i] = ambient + emission of surface i, and what these lights add, in index order: shade_ambient and shade_light of each, in
+// one go and with the same bits. Writes all count entries (0 for invalid ones).
+void shade_lights(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, const LightRange& lights, float* const radiance[3]);
+
 // radiance[c][i] = ambient + emission of surface i. Writes all count entries (0 for invalid ones).
 void shade_ambient(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]);
 

@@ -1,4 +1,4 @@
-// Light on batches of surfaces, flat and Phong: ambient and emission, then one light after the other.
+// Light on batches of surfaces, flat and Phong: a vector of surfaces meets all lights before the next.
 #include "shade/light_kernel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,98 +12,124 @@ namespace HWY_NAMESPACE {
 namespace {
 using namespace light_lanes;
 
-// radiance = ambient * scene ambient + emission; 0 for invalid surfaces.
-// Input:    plan.ambient and plan.emission: parts that are off are not read.
-// Contract: one rounding for emission-free surfaces, two else.
-void shade_ambient_kernel(const Frame& frame, const SurfaceBatch& s, float* const radiance[3]) {
-  for (int i = 0; i < s.count; i += kLanes) {
-    const Mask valid = active_lanes(s, i, nullptr);
-    for (int c = 0; c < 3; ++c) {
-      F32 sum = frame.plan.emission ? F32::load(s.emission[c] + i) : F32::zero();
-      if (frame.plan.ambient) sum = mul_add(F32::load(s.ambient[c] + i), f32(frame.scene->ambient_radiance[c]), sum);
-      sum = select(valid, sum, F32::zero());
-      if (i + kLanes <= s.count) {
-        sum.store(radiance[c] + i);
-      } else {  // the caller's arrays need not be padded
-        float lanes[kLanes];
-        sum.store(lanes);
-        for (int k = 0; i + k < s.count; ++k) radiance[c][i + k] = lanes[k];
-      }
-    }
-  }
-}
+constexpr int kTogether = 16;  // pairs of a vector and a light in one go
 
-// Adds one light to each surface: intensity * attenuation * (Kd * diffuse + Ks * specular) (catalog/reflectance).
-// Input:    surfaces, the bits of those that the light reaches; plan.specular off: Ks is not read.
+// A vector of surfaces, and where light is evaluated for them.
+struct Surfaces : Receiver {
+  Site site;  // for flat shading not at Receiver::position
+  Models models;
+  F32 shininess, highlight;
+};
+
+struct MetLight : Met { int light; };
+
+// Adds lights to each surface, one after the other: intensity * attenuation * (Kd * diffuse + Ks * specular) (catalog/reflectance).
+// Input:    surfaces, the bits of those that each light reaches; plan.specular off: Ks is not read.
 // Contract: a surface whose geometric normal does not face the light gets nothing, but by lifted rays. Entries are independent: equal bits
-//           for every split of the batch. Against double: within 1/255 after encoding (tests/shade_light_test.cpp).
-template <class Kind> class AddLight {
+//           for every split of the batch and of the lights. Against double: within 1/255 after encoding (tests/shade_light_test.cpp).
+class AddLights {
  public:
-  AddLight(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const Light& light, const uint32_t* lit,
-           float* const radiance[3])
-      : frame_(frame), s_(s), hits_(hits), light_(light), lanes_(broadcast_light(light)), lit_(lit), radiance_(radiance) {}
+  AddLights(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const LightRange& lights, bool onto, float* const radiance[3])
+      : frame_(frame), s_(s), hits_(hits), lights_(lights), onto_(onto), radiance_(radiance) {}
 
-  void all() {
-    constexpr int kTogether = 16;
-    Met met[kTogether];
-    for (int i = 0; i < s_.count;) {
-      int n = 0;
-      for (; n < kTogether && i < s_.count; i += kLanes) n += meet(i, met[n]);
-      for (int k = 0; k < n; ++k) reflect(met[k]);
+  // At most kTogether lights. Vectors are loaded for each of the two steps: all that a vector is stays in registers from light to light.
+  void all() const {
+    const int vectors = lights_.count > 1 ? kTogether / lights_.count : kTogether;
+    MetLight met[kTogether];
+    for (int from = 0; from < s_.count; from += vectors * kLanes) {
+      const int end = s_.count < from + vectors * kLanes ? s_.count : from + vectors * kLanes;
+      int n = 0, done = 0;
+      for (int i = from; i < end; i += kLanes) n += meet_all(i, met + n);
+      for (int i = from; i < end; i += kLanes) done += reflect_all(i, met + done, n - done);
     }
   }
 
  private:
-  HWY_INLINE Site site_of(int i, Mask active) const {
-    if (frame_.settings.shading != Shading::kFlat) return {load3(s_.position, i), load3(s_.normal, i), load3(s_.view, i)};
-    const I32 primitive = select(active, I32::load(s_.primitive + i), I32::zero());
-    return face_site(*frame_.scene, primitive, load3(s_.geometric_normal, i), viewer_of(frame_, s_, hits_, active, i));
+  HWY_INLINE Surfaces surfaces_at(int i) const {
+    Surfaces v;
+    static_cast<Receiver&>(v) = receiver_at(s_, i);
+    v.site = site_of(v);
+    v.models = models_of(*frame_.scene, select(v.valid, I32::load(s_.material + v.at), I32::zero()));
+    v.shininess = F32::load(s_.shininess + v.at);
+    v.highlight = max_(max_(v.specular.x, v.specular.y), v.specular.z);
+    return v;
   }
 
-  HWY_INLINE bool meet(int i, Met& met) const {
-    Mask active = active_lanes(s_, i, lit_);
-    if (!any(active)) return false;
-    Incidence incidence = Kind::incidence(lanes_, load3(s_.position, i));
-    active = active & reached(frame_, s_, i, incidence, lit_);
-    if (!any(active)) return false;
-    const Site site = site_of(i, active);
-    if (frame_.settings.shading == Shading::kFlat) incidence = Kind::incidence(lanes_, site.position);
-    const auto highlight = [&]() HWY_ATTR {
-      return max_(max_(F32::load(s_.specular[0] + i), F32::load(s_.specular[1] + i)), F32::load(s_.specular[2] + i));
-    };
-    met.at = i;
-    return meet_light(frame_, site, incidence, active, highlight, met);
+  HWY_INLINE Site site_of(const Surfaces& v) const {
+    if (frame_.settings.shading != Shading::kFlat) return {v.position, load3(s_.normal, v.at), load3(s_.view, v.at)};
+    const I32 primitive = select(v.valid, I32::load(s_.primitive + v.at), I32::zero());
+    return face_site(*frame_.scene, primitive, load3(s_.geometric_normal, v.at), viewer_of(frame_, s_, hits_, v.valid, v.at));
   }
 
-  HWY_INLINE void reflect(const Met& met) const {
-    const Site site = site_of(met.at, met.active);
-    const V3 direction = Kind::incidence(lanes_, site.position).direction;
-    const Reflected factor =
-        reflect_light(frame_, site, direction, met, I32::load(s_.material + met.at), F32::load(s_.shininess + met.at));
-    accumulate(s_, met.at, met.active, light_, factor, met.specular, radiance_);
+  // How many lights give something to surfaces i .., with what they see of each.
+  HWY_INLINE int meet_all(int i, MetLight* met) const {
+    if (!any(active_lanes(s_, i))) return 0;  // there may be no triangle at all, whose corners flat shading would read
+    const Surfaces v = surfaces_at(i);
+    int n = 0;
+    for (int l = 0; l < lights_.count; ++l) {
+      const Mask active = lit_lanes(v, lights_, l);
+      if (!any(active)) continue;
+      met[n].at = i, met[n].light = lights_.first + l;
+      n += meet(v, active, met[n]);
+    }
+    return n;
+  }
+
+  HWY_INLINE bool meet(const Surfaces& v, Mask active, MetLight& met) const {
+    const Light& light = light_of(frame_, met.light);
+    bool any_left = false;
+    with_kind(light, [&](auto kind) HWY_ATTR {
+      using Kind = decltype(kind);
+      const LightLanes lanes = broadcast_light(light);
+      Incidence incidence = Kind::incidence(lanes, v.position);
+      active = active & reached(frame_, s_, v.at, incidence, lights_.lit != nullptr);
+      if (!any(active)) return;
+      if (frame_.settings.shading == Shading::kFlat) incidence = Kind::incidence(lanes, v.site.position);
+      any_left = meet_light(frame_, v.site, incidence, active, [&]() HWY_ATTR { return v.highlight; }, met);
+    });
+    return any_left;
+  }
+
+  // What they give, of at most n lights. Returns how many of them are those of surfaces i ...
+  HWY_INLINE int reflect_all(int i, const MetLight* met, int n) const {
+    V3 sum = start_radiance(frame_, s_, receiver_at(s_, i), onto_, radiance_);
+    int k = 0;
+    if (n > 0 && met->at == i) {
+      const Surfaces v = surfaces_at(i);
+      for (; k < n && met[k].at == i; ++k) sum = reflect(v, sum, met[k]);
+    }
+    store_radiance(sum, radiance_, i, s_.count);
+    return k;
+  }
+
+  HWY_INLINE V3 reflect(const Surfaces& v, const V3& sum, const MetLight& met) const {
+    const Light& light = light_of(frame_, met.light);
+    V3 direction = {F32::zero(), F32::zero(), F32::zero()};
+    with_kind(light, [&](auto kind) HWY_ATTR { direction = decltype(kind)::incidence(broadcast_light(light), v.site.position).direction; });
+    const Reflected factor = reflect_light(frame_, v.site, direction, met, v.models, v.shininess);
+    return plus_light(sum, met.active, light, factor, v.diffuse, v.specular, met.specular);
   }
 
   const Frame& frame_;
   const SurfaceBatch& s_;
   const HitBatch& hits_;
-  const Light& light_;
-  const LightLanes lanes_;
-  const uint32_t* const lit_;
+  const LightRange& lights_;
+  const bool onto_;
   float* const* const radiance_;
 };
 
-void shade_light_kernel(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, int light, const uint32_t* lit,
+}  // namespace
+
+void shade_lights_entry(const Frame& frame, const SurfaceBatch& s, const HitBatch& hits, const LightRange& lights, bool onto,
                         float* const radiance[3]) {
-  with_kind(light_of(frame, light), [&](auto kind) HWY_ATTR {
-    AddLight<decltype(kind)>(frame, s, hits, light_of(frame, light), lit, radiance).all();
-  });
+  for (int done = 0; done < lights.count; done += kTogether) {
+    const int left = lights.count - done;
+    const LightRange some = {lights.first + done, left < kTogether ? left : kTogether, lights.bits(done), lights.words};
+    AddLights(frame, s, hits, some, onto || done > 0, radiance).all();
+  }
+  if (lights.count == 0 && !onto) AddLights(frame, s, hits, lights, false, radiance).all();
 }
 
-}  // namespace
-void shade_ambient_entry(const Frame& f, const SurfaceBatch& s, float* const r[3]) { shade_ambient_kernel(f, s, r); }
-void shade_light_entry(const Frame& f, const SurfaceBatch& s, const HitBatch& h, int l, const uint32_t* lit, float* const r[3]) {
-  shade_light_kernel(f, s, h, l, lit, r);
-}
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace spanray
@@ -111,7 +137,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace spanray {
-const ShadeAmbientFn kShadeAmbient[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_ambient_entry);
-const ShadeLightFn kShadeLight[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_light_entry);
+const ShadeLightsFn kShadeLights[kIsaCount] = SPANRAY_KERNEL_TABLE(shade_lights_entry);
 }  // namespace spanray
 #endif

@@ -5,13 +5,11 @@
 
 namespace spanray {
 
-using ShadeAmbientFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, float* const radiance[3]);
-extern const ShadeAmbientFn kShadeAmbient[kIsaCount];
-
-// Phong, and flat surfaces that carry no light; Gouraud, and surfaces that carry some.
-using ShadeLightFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, int light,
-                              const uint32_t* lit, float* const radiance[3]);
-extern const ShadeLightFn kShadeLight[kIsaCount], kShadeTriangleLight[kIsaCount];
+// Phong, and flat surfaces that carry no light; Gouraud, and surfaces that carry some. onto: onto what stands in radiance, else from ambient
+// and emission on.
+using ShadeLightsFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, const HitBatch& hits, const LightRange& lights, bool onto,
+                               float* const radiance[3]);
+extern const ShadeLightsFn kShadeLights[kIsaCount], kShadeTriangleLights[kIsaCount];
 
 using MakeShadowRaysFn = void (*)(const Frame& frame, const SurfaceBatch& surfaces, int light, RayBatch& rays,
                                   AlignedBuffer<uint32_t>& surface_of_ray);

@@ -37,13 +37,11 @@ HWY_INLINE LightLanes broadcast_light(const Light& light) {
   return {broadcast3(light.position), broadcast3(light.direction), broadcast3(light.attenuation)};
 }
 
-// Lanes i .. i + kLanes - 1 that are valid, below count, and lit. lit: nullptr = all.
-HWY_INLINE Mask active_lanes(const SurfaceBatch& s, int i, const uint32_t* lit) {
+// Lanes i .. i + kLanes - 1 that are valid and below count.
+HWY_INLINE Mask active_lanes(const SurfaceBatch& s, int i) {
   const Mask valid = I32::load(s.valid + i) != I32::zero();
   const int left = s.count - i;
-  const Mask inside = left < kLanes ? valid & first_lanes(left) : valid;
-  if (lit == nullptr) return inside;
-  return inside & mask_from_bits(lit[i >> 5] >> (i & 31));
+  return left < kLanes ? valid & first_lanes(left) : valid;
 }
 
 // One type a light kind of the catalog, so that kernels are compiled per kind.
@@ -58,6 +56,27 @@ HWY_INLINE Mask active_lanes(const SurfaceBatch& s, int i, const uint32_t* lit) 
   };
 #include "catalog_lights_list.inc"
 #undef SPANRAY_CATALOG_ENTRY
+
+HWY_INLINE I32 reflectance_models(const SceneData& scene, I32 material) {
+  const int32_t* base = reinterpret_cast<const int32_t*>(scene.materials.data());
+  const uint32_t first = static_cast<uint32_t>(first_lane(material));
+  if (all(material == i32(first))) return i32(scene.materials[first].reflectance);
+  return gather(base + offsetof(Material, reflectance) / 4, material * i32(kMaterialStride));
+}
+
+// The same, and whether all lanes have the one of the first: then nothing is asked lane by lane.
+struct Models {
+  I32 lanes;
+  bool one;
+};
+HWY_INLINE Models models_of(const SceneData& scene, I32 material) {
+  const I32 lanes = reflectance_models(scene, material);
+  return {lanes, all(lanes == i32(first_lane(lanes)))};
+}
+HWY_INLINE F32 material_shininess(const SceneData& scene, I32 material) {
+  const float* base = reinterpret_cast<const float*>(scene.materials.data());
+  return gather(base + offsetof(Material, shininess) / 4, material * i32(kMaterialStride));
+}
 
 // Reflectance times cosine: to be multiplied by Kd and by Ks.
 struct Reflected { F32 diffuse, specular; };
@@ -78,15 +97,16 @@ HWY_INLINE Reflected reflect(I32 model, Mask active, bool specular, const Cosine
   return r;
 }
 
-HWY_INLINE I32 reflectance_models(const SceneData& scene, I32 material) {
-  const int32_t* base = reinterpret_cast<const int32_t*>(scene.materials.data());
-  const uint32_t first = static_cast<uint32_t>(first_lane(material));
-  if (all(material == i32(first))) return i32(scene.materials[first].reflectance);
-  return gather(base + offsetof(Material, reflectance) / 4, material * i32(kMaterialStride));
-}
-HWY_INLINE F32 material_shininess(const SceneData& scene, I32 material) {
-  const float* base = reinterpret_cast<const float*>(scene.materials.data());
-  return gather(base + offsetof(Material, shininess) / 4, material * i32(kMaterialStride));
+// The same; lanes outside `active` may get anything.
+HWY_INLINE Reflected reflect_any(const Models& models, Mask active, bool specular, const Cosines& c) {
+  if (!models.one) return reflect(models.lanes, active, specular, c);
+  switch (first_lane(models.lanes)) {
+#define SPANRAY_CATALOG_ENTRY(index, name) \
+  case index: return {formula::reflectance::name::diffuse(c), specular ? formula::reflectance::name::specular(c) : F32::zero()};
+#include "catalog_reflectance_list.inc"
+#undef SPANRAY_CATALOG_ENTRY
+  }
+  return {F32::zero(), F32::zero()};
 }
 
 // Corner j of the triangles of lanes i ..; lanes that are not active read triangle 0.
@@ -135,36 +155,75 @@ HWY_INLINE Mask in_front_lifted(const SurfaceBatch& s, int i, const Incidence& i
   return has_lift(s, i) & (formula::dot(load3(s.smooth_normal, i), incidence.direction) > F32::zero());
 }
 
-// Those that shading lights. With lifted rays, bits of `lit` say all; without shadow rays, either of the two is enough.
-HWY_INLINE Mask reached(const Frame& frame, const SurfaceBatch& s, int i, const Incidence& incidence, const uint32_t* lit) {
+// Those that shading lights. With lifted rays, shadow bits (known) say all; without, either of the two is enough.
+HWY_INLINE Mask reached(const Frame& frame, const SurfaceBatch& s, int i, const Incidence& incidence, bool known) {
   if (!frame.plan.lifted_rays) return in_front(s, i, incidence);
-  if (lit != nullptr) return first_lanes(kLanes);
+  if (known) return first_lanes(kLanes);
   return in_front(s, i, incidence) | in_front_lifted(s, i, incidence);
 }
 
-// radiance + intensity * (Kd * diffuse + Ks * specular) in the active lanes, of one channel.
-HWY_INLINE F32 plus_light(F32 radiance, Mask active, float intensity, const Reflected& factor, F32 diffuse, F32 highlight, bool specular) {
-  F32 reflected = diffuse * factor.diffuse;
-  if (specular) reflected = mul_add(highlight, factor.specular, reflected);
-  return select(active, mul_add(f32(intensity), reflected, radiance), radiance);
+// radiance + intensity * (Kd * diffuse + Ks * specular) in the active lanes.
+HWY_INLINE V3 plus_light(const V3& radiance, Mask active, const Light& light, const Reflected& factor, const V3& diffuse,
+                         const V3& highlight, bool specular) {
+  const auto channel = [&](F32 sum, float intensity, F32 kd, F32 ks) HWY_ATTR {
+    F32 reflected = kd * factor.diffuse;
+    if (specular) reflected = mul_add(ks, factor.specular, reflected);
+    return select(active, mul_add(f32(intensity), reflected, sum), sum);
+  };
+  return {channel(radiance.x, light.intensity[0], diffuse.x, highlight.x), channel(radiance.y, light.intensity[1], diffuse.y, highlight.y),
+          channel(radiance.z, light.intensity[2], diffuse.z, highlight.z)};
 }
 
-// plus_light of all channels of stored surfaces; other entries are not written.
-HWY_INLINE void accumulate(const SurfaceBatch& s, int i, Mask active, const Light& light, const Reflected& factor,
-                           bool specular, float* const radiance[3]) {
-  const bool whole = i + kLanes <= s.count;
-  for (int c = 0; c < 3; ++c) {
-    float* const out = radiance[c] + i;
-    const F32 diffuse = F32::load(s.diffuse[c] + i), highlight = F32::load(s.specular[c] + i);
-    if (whole) {
-      plus_light(F32::load(out), active, light.intensity[c], factor, diffuse, highlight, specular).store(out);
-    } else {  // the caller's arrays need not be padded
-      float lanes[kLanes] = {};
-      for (int k = 0; i + k < s.count; ++k) lanes[k] = out[k];
-      plus_light(F32::load(lanes), active, light.intensity[c], factor, diffuse, highlight, specular).store(lanes);
-      for (int k = 0; i + k < s.count; ++k) out[k] = lanes[k];
-    }
+// ambient * scene ambient + emission.
+// Input:    plan.ambient and plan.emission: parts that are off are not read.
+// Contract: one rounding for emission-free surfaces, two else.
+HWY_INLINE V3 ambient_radiance(const Frame& frame, const V3& ambient, const V3& emission) {
+  const float* const scene = frame.scene->ambient_radiance;
+  const V3 sum = frame.plan.emission ? emission : V3{F32::zero(), F32::zero(), F32::zero()};
+  if (!frame.plan.ambient) return sum;
+  return {mul_add(ambient.x, f32(scene[0]), sum.x), mul_add(ambient.y, f32(scene[1]), sum.y), mul_add(ambient.z, f32(scene[2]), sum.z)};
+}
+
+// Radiance of count surfaces, from entry i on. The caller's arrays need not be padded.
+HWY_INLINE V3 load_radiance(float* const radiance[3], int i, int count) {
+  if (i + kLanes <= count) return load3(radiance, i);
+  float lanes[3][kLanes] = {};
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; i + k < count; ++k) lanes[c][k] = radiance[c][i + k];
+  return {F32::load(lanes[0]), F32::load(lanes[1]), F32::load(lanes[2])};
+}
+HWY_INLINE void store_radiance(const V3& value, float* const radiance[3], int i, int count) {
+  if (i + kLanes <= count) {
+    value.x.store(radiance[0] + i), value.y.store(radiance[1] + i), value.z.store(radiance[2] + i);
+    return;
   }
+  float lanes[3][kLanes];
+  value.x.store(lanes[0]), value.y.store(lanes[1]), value.z.store(lanes[2]);
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; i + k < count; ++k) radiance[c][i + k] = lanes[c][k];
+}
+
+// A vector of a batch of surfaces: what all lights ask of it.
+struct Receiver {
+  int at;
+  Mask valid;
+  V3 position, diffuse, specular;
+};
+HWY_INLINE Receiver receiver_at(const SurfaceBatch& s, int at) {
+  return {at, active_lanes(s, at), load3(s.position, at), load3(s.diffuse, at), load3(s.specular, at)};
+}
+
+// Before any light: ambient and emission, 0 for surfaces that are not valid, or (onto) what stands in radiance.
+HWY_INLINE V3 start_radiance(const Frame& frame, const SurfaceBatch& s, const Receiver& r, bool onto, float* const radiance[3]) {
+  if (onto) return load_radiance(radiance, r.at, s.count);
+  const V3 ambient = ambient_radiance(frame, load3(s.ambient, r.at), load3(s.emission, r.at));
+  return select3(r.valid, ambient, {F32::zero(), F32::zero(), F32::zero()});
+}
+
+// Those of r that light number `light` of a range has found.
+HWY_INLINE Mask lit_lanes(const Receiver& r, const LightRange& lights, int light) {
+  const uint32_t* const lit = lights.bits(light);
+  return lit == nullptr ? r.valid : r.valid & mask_from_bits(lit[r.at >> 5] >> (r.at & 31));
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -82,11 +82,11 @@ void shadow_rays(const Frame& frame, const SurfaceBatch& s, const Light& light, 
   int n = rays.count;
   resize_rays(n + s.count + kLanes, false, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
-    Mask active = active_lanes(s, i, nullptr);
+    Mask active = active_lanes(s, i);
     if (!any(active)) continue;
     const V3 position = load3(s.position, i);
     const Incidence incidence = Kind::incidence(lanes, position);
-    active = active & reached(frame, s, i, incidence, nullptr);
+    active = active & reached(frame, s, i, incidence, false);
     if (by_normal) active = active & (formula::dot(load3(s.normal, i), incidence.direction) > F32::zero());
     if (!any(active)) continue;
     V3 start = offset_origin(position, load3(s.geometric_normal, i), F32::load(s.position_error + i));
@@ -183,7 +183,7 @@ void make_lift_rays_entry(const Frame& frame, const SurfaceBatch& s, RayBatch& r
   int n = 0;
   resize_rays(s.count + kLanes, false, rays, surface_of_ray);
   for (int i = 0; i < s.count; i += kLanes) {
-    const Mask liftable = has_lift(s, i) & active_lanes(s, i, nullptr);
+    const Mask liftable = has_lift(s, i) & active_lanes(s, i);
     if (!any(liftable)) continue;
     const V3 position = load3(s.position, i);
     Mask active = first_lanes(0);
@@ -210,7 +210,7 @@ void make_bounce_rays_entry(const Frame& frame, const SurfaceBatch& s, const Hit
   for (int i = 0; i < s.count; i += kLanes) {
     const V3 mirror = load3(s.mirror, i);
     const F32 zero = F32::zero();
-    const Mask active = active_lanes(s, i, nullptr) & ((mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero));
+    const Mask active = active_lanes(s, i) & ((mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero));
     if (!any(active)) continue;
     const V3 normal = load3(s.normal, i), geometric_normal = load3(s.geometric_normal, i);
     const RayDirection ray = ray_direction(frame, s, hits, active, i);

@@ -126,10 +126,12 @@ HWY_INLINE SurfaceLanes resolve_lanes(const RayLanes& ray, const TriangleLanes& 
   const F64 outside = select_eq(b0, c0, select_eq(b1, c1, select_eq(b2, c2, zero, one), one), one);
   const F64 total = select_eq(outside, zero, one, c0 + c1 + c2);
   const F64 usable = select_eq(sum, zero, zero, select_lt(zero, total, one, zero));
-  const F64 divisor = select_eq(usable, zero, one, total);
-  s.b0 = select_eq(usable, zero, one, c0 / divisor);
-  s.b1 = select_eq(usable, zero, zero, c1 / divisor);
-  s.b2 = select_eq(usable, zero, zero, c2 / divisor);
+  s.b0 = c0, s.b1 = c1, s.b2 = c2;
+  if (any(outside == one)) {  // else all is divided by 1
+    const F64 divisor = select_eq(usable, zero, one, total);
+    s.b0 = c0 / divisor, s.b1 = c1 / divisor, s.b2 = c2 / divisor;
+  }
+  s.b0 = select_eq(usable, zero, one, s.b0), s.b1 = select_eq(usable, zero, zero, s.b1), s.b2 = select_eq(usable, zero, zero, s.b2);
   s.position = t.v0 + s.edge1 * s.b1 + s.edge2 * s.b2;
   return s;
 }

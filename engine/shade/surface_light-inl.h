@@ -40,11 +40,10 @@ HWY_INLINE bool meet_light(const Frame& frame, const Site& site, const Incidence
 
 // Second step: attenuation times reflectance times cosine. Of the site and of direction, which is what the first step had, nothing is
 // computed but for formulas of reflectance that ask for more cosines than n_l and n_h.
-HWY_INLINE Reflected reflect_light(const Frame& frame, const Site& site, const V3& direction, const Met& met, I32 material, F32 shininess) {
+HWY_INLINE Reflected reflect_light(const Frame& frame, const Site& site, const V3& direction, const Met& met, const Models& models, F32 shininess) {
   Cosines c = formula::cosines(site.normal, direction, site.view, met.n_l, shininess, frame.settings.powers == Powers::kFast);
   if (met.specular) formula::add_half_way(c, site.normal, direction, site.view), c.n_h = met.n_h;
-  const I32 model = reflectance_models(*frame.scene, select(met.active, material, I32::zero()));
-  const Reflected r = reflect(model, met.active, met.specular, c);
+  const Reflected r = reflect_any(models, met.active, met.specular, c);
   return {r.diffuse * met.attenuation, r.specular * met.attenuation};
 }
 

@@ -19,9 +19,12 @@
 #pragma once
 #include "simd/isa.h"
 
-// Sanitized builds have fewer instruction sets, in all targets alike: each one takes minutes to compile.
-#if defined(SPANRAY_FEW_ISAS)
+// Sanitized builds have fewer instruction sets, in all targets alike: each one takes minutes to compile. None has SSE4, and
+// AVX-512 only those of SPANRAY_SANITIZE_AVX512.
+#if defined(SPANRAY_NO_AVX512)
 #define SPANRAY_KERNEL_TABLE(f) {&N_SCALAR::f, nullptr, &N_AVX2::f, nullptr}
+#elif defined(SPANRAY_NO_SSE4)
+#define SPANRAY_KERNEL_TABLE(f) {&N_SCALAR::f, nullptr, &N_AVX2::f, &N_AVX3::f}
 #else
 #define SPANRAY_KERNEL_TABLE(f) {&N_SCALAR::f, &N_SSE4::f, &N_AVX2::f, &N_AVX3::f}
 #endif

@@ -56,8 +56,10 @@ inline Scene crowd() {
   add_sphere(ball({1.0, 0.6, 0.9}, 0.25, kShiny), scene);
   add_sphere(ball({0.2, -0.05, 1.6}, 0.2, kShiny), scene);
   TestRandom random(3);
-  for (int i = 0; i < 40; ++i)
-    add_sphere(ball({random.uniform(-3, 3), 0.05, random.uniform(-3, 3)}, 0.05, static_cast<uint32_t>(random.below(2))), scene);
+  for (int i = 0; i < 40; ++i) {
+    const uint32_t material = static_cast<uint32_t>(random.below(2));  // first: compilers order arguments as they like
+    add_sphere(ball({random.uniform(-3, 3), 0.05, random.uniform(-3, 3)}, 0.05, material), scene);
+  }
   add_lamp(scene, {3, 5, 3}, 60), add_sun(scene, {1, -2, -1});
   return finish(std::move(scene));
 }

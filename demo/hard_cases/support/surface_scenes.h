@@ -74,6 +74,7 @@ inline void random_primary_hits(const Frame& frame, TestRandom& random, int n, H
     uint32_t pixel = 0;
     if (pixel_of(frame, point_on(*frame.scene, primitive, random), &pixel)) add_hit(hits, pixel, 0, primitive);
   }
+  hits.pad();  // as those of tiles
 }
 
 // The same triangles, all bumped by noise.

@@ -30,6 +30,7 @@ template <> std::span<const EnumName<Normals>> enum_names<Normals>();
 template <> std::span<const EnumName<Powers>> enum_names<Powers>();
 template <> std::span<const EnumName<ShadingRate>> enum_names<ShadingRate>();
 template <> std::span<const EnumName<TreeQuality>> enum_names<TreeQuality>();
+template <> std::span<const EnumName<LightGridUse>> enum_names<LightGridUse>();
 template <> std::span<const EnumName<ShadowTerminator>> enum_names<ShadowTerminator>();
 
 // The value named by text, exactly as written in the table.

@@ -11,9 +11,10 @@ inline constexpr int kNumericContract = 4;
 
 // Milliseconds. Stages inside tiles are thread time divided by the number of threads; frame is wall time without file output.
 // bvh_build: of the trees in use. It is part of the frame only where motion asked for them (counts: bvh_rebuilds), not of the first.
+// light_grid_build: of the light grids in use; part of no frame.
 struct StageTimes {
   double pose = 0, bvh_refit = 0, transform = 0, clip = 0, bin = 0, raster = 0, shade = 0, shadow_rays = 0, bounce_rays = 0, composite = 0,
-         encode = 0, frame = 0, bvh_build = 0;
+         encode = 0, frame = 0, bvh_build = 0, light_grid_build = 0;
 };
 
 // How full the vectors of a kernel were: lanes computed in the frame, and those of use. Depends on the instruction set.
