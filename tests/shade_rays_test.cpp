@@ -25,7 +25,7 @@ std::unique_ptr<TestSurfaces> hard_positions(uint32_t seed, double scale, int co
   for (int i = 0; i < count; ++i) {
     // Sizes from the scale down to a thousandth, at up to 100 scales from the origin, often with axis-parallel edges.
     const double size = scale * std::pow(10.0, -random.uniform(0, 3));
-    const glm::dvec3 offset = random.below(2) ? random.uniform(0, 100) * scale * random_unit(random) : glm::dvec3(0);
+    const glm::dvec3 offset = random.below(2) ? random_vector(random, 0, 100) * scale : glm::dvec3(0);
     LVec v[3];
     for (LVec& p : v) {
       glm::dvec3 q = offset + size * random_unit(random);
@@ -221,7 +221,7 @@ TEST(BounceRays, DifferentialsOfPlaneMirrorsMatchFiniteDifferences) {
       glm::dvec3 ox(0), oy(0), dx = p.step_x, dy = p.step_y;
       if (bounce) {
         t->rays.resize(1, true);
-        d = random.uniform(0.5, 2) * random_unit(random);
+        d = random_vector(random, 0.5, 2);
         o = -3.0 * d + 0.1 * random_unit(random);
         ox = 0.01 * random_unit(random), oy = 0.01 * random_unit(random);
         dx = 0.01 * random_unit(random), dy = 0.01 * random_unit(random);

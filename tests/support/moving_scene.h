@@ -67,8 +67,10 @@ inline std::string write_moving_scene(const TempFolder& folder, int spikes = 60)
     double x, y;
     do x = random.uniform(-1, 1), y = random.uniform(-1, 1);
     while (x * x + y * y > 1);
-    for (int v = 0; v < 4; ++v)
-      obj += vertex_line(0.8 * x + random.uniform(-0.1, 0.1), 1 + 0.8 * y + random.uniform(-0.1, 0.1), random.uniform(-0.2, 0.2));
+    for (int v = 0; v < 4; ++v) {
+      const double aside = random.uniform(-0.1, 0.1), up = random.uniform(-0.1, 0.1), ahead = random.uniform(-0.2, 0.2);
+      obj += vertex_line(0.8 * x + aside, 1 + 0.8 * y + up, ahead);
+    }
     obj += "f -4 -3 -2\nf -4 -2 -1\nf -4 -1 -3\nf -3 -1 -2\n";
   }
   obj += "o glassware\ng things pane\nusemtl glass\n" + vertex_line(0.3, 0.7, 0.3) + vertex_line(0.9, 0.7, 0.3) + vertex_line(0.9, 1.3, 0.3) +

@@ -55,8 +55,8 @@ inline void add_mesh(std::vector<SoupTriangle>& soup, const IndexedMesh& m, doub
 
 inline void add_random_triangles(std::vector<SoupTriangle>& soup, TestRandom& random, int n, double size, uint32_t material = 0) {
   for (int i = 0; i < n; ++i) {
-    const glm::dvec3 p = random_point(random, 1);
-    soup.push_back(soup_triangle(p, p + random_point(random, size), p + random_point(random, size), material));
+    const glm::dvec3 p = random_point(random, 1), a = random_point(random, size), b = random_point(random, size);
+    soup.push_back(soup_triangle(p, p + a, p + b, material));
   }
 }
 

@@ -1,4 +1,5 @@
-// Random numbers for tests and hard cases, the same with every standard library (std:: distributions are not).
+// Random numbers for tests and hard cases, the same with every standard library (std:: distributions are not). Who draws twice in one
+// expression gets another order from every compiler, except in braces and one declarator after the other.
 #pragma once
 #include <cstdint>
 #include <random>

@@ -17,10 +17,15 @@ inline glm::dvec3 get3(float* const in[3], int i) { return {in[0][i], in[1][i], 
 
 inline glm::dvec3 random_unit(TestRandom& random) {
   for (;;) {
-    const glm::dvec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const glm::dvec3 v{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};  // in braces: in this order
     const double d = dot3(v, v);
     if (d > 0.01 && d <= 1) return v / std::sqrt(d);
   }
+}
+// Of a length in [low, high).
+inline glm::dvec3 random_vector(TestRandom& random, double low, double high) {
+  const double length = random.uniform(low, high);
+  return length * random_unit(random);
 }
 inline glm::dvec3 random_color(TestRandom& random, double high = 1) {
   return {random.uniform(0, high), random.uniform(0, high), random.uniform(0, high)};
@@ -98,8 +103,8 @@ inline SceneData make_lit_scene(TestRandom& random, int triangles) {
   }
   std::vector<SoupTriangle> soup;
   for (int i = 0; i < triangles; ++i) {
-    const glm::dvec3 a = random.uniform(0, 2) * random_unit(random), b = a + random.uniform(0.3, 1) * random_unit(random);
-    const glm::dvec3 c = a + random.uniform(0.3, 1) * random_unit(random);
+    const glm::dvec3 a = random_vector(random, 0, 2), b = a + random_vector(random, 0.3, 1);
+    const glm::dvec3 c = a + random_vector(random, 0.3, 1);
     SoupTriangle t = soup_triangle(a, b, c, static_cast<uint32_t>(random.below(5)));
     const glm::dvec3 face = normalize3(cross3(b - a, c - a), glm::dvec3(0, 1, 0));
     for (Vertex& v : t.corner) {
@@ -112,7 +117,7 @@ inline SceneData make_lit_scene(TestRandom& random, int triangles) {
   for (int i = 0; i < 6; ++i) {
     Light light;
     light.kind = i % 3 == 2;
-    const glm::dvec3 p = random.uniform(2, 4) * random_unit(random), d = random_unit(random);
+    const glm::dvec3 p = random_vector(random, 2, 4), d = random_unit(random);
     const glm::dvec3 intensity = random_color(random, light.kind ? 2 : 20);
     for (int k = 0; k < 3; ++k) {
       light.position[k] = static_cast<float>(p[k]), light.direction[k] = static_cast<float>(d[k]);
@@ -164,7 +169,7 @@ inline std::unique_ptr<TestSurfaces> make_test_surfaces(uint32_t seed, int count
   if (bounce) t->hits.rays = &t->rays;
   for (int i = 0; i < count; ++i) {
     glm::dvec3 viewer = t->frame().primary.eye;
-    if (bounce) viewer = random.uniform(0.5, 6) * random_unit(random);
+    if (bounce) viewer = random_vector(random, 0.5, 6);
     for (int k = 0; k < 3; ++k) {
       t->rays.origin[k][static_cast<size_t>(i)] = static_cast<float>(viewer[k]);
       viewer[k] = bounce ? static_cast<double>(static_cast<float>(viewer[k])) : viewer[k];
